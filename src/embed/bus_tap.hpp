@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "aesl/target.hpp"
@@ -25,7 +26,8 @@ public:
     virtual ~BusTap() = default;
 
     // ---- first, on the thread that calls tap() ----
-    virtual void begin(const aesl::CommonDefinitions& common) = 0;
+    // The clock is a steady one, which can be asked from any thread until tap(nullptr).
+    virtual void begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) = 0;
 
     // ---- on the thread of the bus; of the nodes that are there already, with begin() ----
     virtual void described(const debug::NodeView& node) = 0;

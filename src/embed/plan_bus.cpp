@@ -198,7 +198,7 @@ void PlanBus::Insides::set_tap(BusTap* follows) {
     tap = follows;
     emitted.clear();
     if (!tap) return;
-    tap->begin(options.common);
+    tap->begin(options.common, [this] { return net.now(); });
     for (const debug::NodeId id : network.nodes()) {
         if (network.node(id)->described) tap->described(*network.node(id));
     }

@@ -1,6 +1,6 @@
-// What is recorded of a real bus: each frame with its number, user events by their names, what nodes
-// say of their variables, and how they describe themselves. It asks nothing and sends nothing: the
-// variables are those that somebody asks for.
+// What is recorded of a real bus: each frame with its number, user events by their names, what
+// nodes say of their variables, and how they describe themselves. It asks nothing and sends
+// nothing: the variables are those that somebody asks for.
 //
 //     BusRecorder bus(*tape);
 //     bus.begin(project.common);

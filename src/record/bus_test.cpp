@@ -87,16 +87,17 @@ protected:
 TEST_F(BusInMemory, AVariableIsToldWhenAllItsWordsAreKnownAndWhenItChanges) {
     bus.begin(project().common);
     bus.described(0ms, rover());
-    (void)bus.frame(1ms, {.frame = frame_of(3, kVariables, {0, 7, 1})});    // half of `speed`
-    (void)bus.frame(2ms, {.frame = frame_of(3, kVariables, {2, 2, 5})});    // the rest
+    (void)bus.frame(1ms, {.frame = frame_of(3, kVariables, {0, 7, 1})});     // half of `speed`
+    (void)bus.frame(2ms, {.frame = frame_of(3, kVariables, {2, 2, 5})});     // the rest
     (void)bus.frame(3ms, {.frame = frame_of(3, kVariables, {0, 7, 1, 2})});  // nothing new
     (void)bus.frame(4ms, {.frame = frame_of(3, kVariables, {3, -5})});
     (void)bus.frame(5ms, {.frame = frame_of(3, kVariables, {3, 1, 2, 3})});  // beyond its memory
-    (void)bus.frame(6ms, {.frame = frame_of(9, kVariables, {0, 1})});       // of nobody
-    (void)bus.frame(7ms, {.frame = frame_of(3, kVariables, {})});           // without a word
+    (void)bus.frame(6ms, {.frame = frame_of(9, kVariables, {0, 1})});        // of nobody
+    (void)bus.frame(7ms, {.frame = frame_of(3, kVariables, {})});            // without a word
     EXPECT_EQ(messages("/node/rover/variables"),
               (std::vector<std::string>{R"({"t":0.001000,"all":false,"set":{"id":7}})",
-                                        R"({"t":0.002000,"all":false,"set":{"speed":[1,2],"acc":5}})",
+                                        R"({"t":0.002000,"all":false,)"
+                                        R"("set":{"speed":[1,2],"acc":5}})",
                                         R"({"t":0.004000,"all":false,"set":{"acc":-5}})",
                                         R"({"t":0.005000,"all":false,"set":{"acc":1}})"}));
 }
@@ -134,8 +135,8 @@ TEST_F(BusInMemory, WhatWasHeardComesInTheOrderInWhichItWasDecidedOn) {
     hears(200ms, 3);
     const auto again = past();
     EXPECT_EQ(again->next(), Time(100ms));
-    EXPECT_EQ(again->late(Time(90ms)), Time(100ms));   // a timer that was a little late
-    EXPECT_EQ(again->late(Time(50ms)), Time(50ms));    // too much for that
+    EXPECT_EQ(again->late(Time(90ms)), Time(100ms));  // a timer that was a little late
+    EXPECT_EQ(again->late(Time(50ms)), Time(50ms));   // too much for that
     EXPECT_EQ(again->begin().size(), 2u);
     EXPECT_EQ(again->next(), Time(200ms));
     EXPECT_EQ(again->late(Time(190ms)), Time(190ms));  // no decision follows it

@@ -58,8 +58,8 @@ struct Reseeded {
 struct Aborted {
     std::string by = {};
 };
-// Of a plan on a real bus: what it heard, in the order in which it decided on it. An event is that of
-// a recorded frame; what it is told of its nodes is a name (toolbox/bus.hpp).
+// Of a plan on a real bus: what it heard, in the order in which it decided on it. An event is that
+// of a recorded frame; what it is told of its nodes is a name (toolbox/bus.hpp).
 struct Heard {
     uint32_t frame = 0;
     std::string name = {};  // where there is no frame

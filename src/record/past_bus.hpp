@@ -5,7 +5,7 @@
 //     auto past = TRY(PastBus::read(reader, project));
 //     options.surroundings = past.get();
 //     options.on_trace = [&](const plan::TraceEvent& event) { for (told : past->take(event)) … };
-//     options.passes_over = [&](const run::Raising& raising) { return past->passes_over(raising); };
+//     options.passes_over = [&](const auto& raising) { return past->passes_over(raising); };
 //     run::VirtualTime run(graph, library, options);
 //     past->join(run, nodes);
 //

@@ -1,26 +1,22 @@
 #include "record/plan_bus_tap.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <utility>
 
 namespace vagus::record {
 
-namespace {
-
-int64_t steady_us() {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+void PlanBusTap::begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) {
+    bus_.begin(common);
+    clock_ = std::move(clock);
 }
 
-}  // namespace
-
 void PlanBusTap::sees(const plan::TraceEvent& event) {
-    if (began_us_ == 0) began_us_ = steady_us() - event.at.count();
+    if (began_us_ < 0) began_us_ = std::max(int64_t{0}, (clock_() - event.at).count());
 }
 
 Time PlanBusTap::now() const {
     const int64_t began = began_us_;
-    return began == 0 ? Time{} : std::max(Time{}, Time(steady_us() - began));
+    return began < 0 ? Time{} : std::max(Time{}, clock_() - Time(began));
 }
 
 void PlanBusTap::node(const std::string& name, toolbox::BusNodes::Change change) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 
 #include "embed/bus_tap.hpp"
@@ -27,7 +28,7 @@ public:
     Time now() const;
 
     // ---- embed::BusTap ----
-    void begin(const aesl::CommonDefinitions& common) override { bus_.begin(common); }
+    void begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) override;
     void described(const debug::NodeView& node) override { bus_.described(now(), node); }
     void node(const std::string& name, toolbox::BusNodes::Change change) override;
     uint32_t frame(const wire::Frame& frame, const run::BusEvent* sent) override;
@@ -39,7 +40,8 @@ public:
 private:
     BusRecorder bus_;
     Recorder& recorder_;
-    std::atomic<int64_t> began_us_ = 0;  // by the steady clock; 0: it has not
+    std::function<Time()> clock_;
+    std::atomic<int64_t> began_us_ = -1;  // by that clock; below 0: it has not
     std::atomic<bool> aborted_ = false;
 };
 

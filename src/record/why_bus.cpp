@@ -1,5 +1,5 @@
-// What a chain of why.hpp tells of a real bus: as far as frames tell. Nobody has seen the scripts of
-// its nodes run; where a script has only one place from which something can have come, that is
+// What a chain of why.hpp tells of a real bus: as far as frames tell. Nobody has seen the scripts
+// of its nodes run; where a script has only one place from which something can have come, that is
 // told, and marked as guessed.
 #include <fmt/format.h>
 

@@ -379,8 +379,7 @@ void RealTime::Engine::take(Heard& message) {
 void RealTime::Engine::take(Written& message) {
     if (machine_.over()) return;
     // A value that does not fit is the writer's to know: set() has checked it before.
-    const Status written = machine_.write_outside(message.slot, message.value, now());
-    (void)written.ok();
+    (void)machine_.write_outside(message.slot, message.value, now()).ok();
 }
 
 // ---- checks ----
@@ -543,8 +542,8 @@ Lateness RealTime::Engine::lateness() const {
     std::vector<uint32_t> sorted = lateness_us_;
     std::sort(sorted.begin(), sorted.end());
     const auto at = [&sorted](double share) {
-        const auto index = static_cast<size_t>(share * static_cast<double>(sorted.size() - 1));
-        return Duration{sorted[index]};
+        return Duration{
+            sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))]};
     };
     return {sorted.size(), at(0.5), at(0.99), at(1.0)};
 }

@@ -11,9 +11,9 @@
 //     } metronome;
 //     options.surroundings = &metronome;               // then VirtualTime
 //
-// All calls come on the deciding thread: next() and late() at any time; begin() when the run has come to that
-// instant; then what the plan does at it and emits; then end(), before the clock moves on or the
-// run is over.
+// All calls come on the deciding thread: next() and late() at any time; begin() when the run has
+// come to that instant; then what the plan does at it and emits; then end(), before the clock moves
+// on or the run is over.
 #pragma once
 
 #include <vector>

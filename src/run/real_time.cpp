@@ -541,9 +541,9 @@ Lateness RealTime::Engine::lateness() const {
     if (lateness_us_.empty()) return {};
     std::vector<uint32_t> sorted = lateness_us_;
     std::sort(sorted.begin(), sorted.end());
-    const auto at = [&sorted](double share) {
-        return Duration{
-            sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))]};
+    const auto last = static_cast<double>(sorted.size() - 1);
+    const auto at = [&](double share) {
+        return Duration{sorted[static_cast<size_t>(share * last)]};
     };
     return {sorted.size(), at(0.5), at(0.99), at(1.0)};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -73,12 +74,16 @@ public:
     void end_when_stopped() { ends_when_stopped = true; }
     void brake_as_a_whole() { brakes = true; }
     void hold_nodes(std::set<debug::NodeId> nodes);
+    void set_tap(BusTap* follows);
+    BusTap* follower() const { return tap; }
 
     session::BusNames names;
     std::thread thread;
 
 private:
     std::vector<run::BusEvent> turn(Time deadline);
+    void hear(uint32_t frame, std::vector<run::BusEvent>& heard);
+    void tell_sent(const wire::Frame& frame);
     void look_for_held(run::RealTime& run);
     void look_for_stopped(run::RealTime& run);
     void look_for_missing(const debug::Event& event);
@@ -105,6 +110,8 @@ private:
     std::set<debug::NodeId> held_braked;  // the plan waits for them
     bool has_let_run = false;             // scripts, for a plan that has not begun
     std::optional<uint16_t> moved_to;     // our tokens are to count from here on
+    BusTap* tap = nullptr;
+    std::deque<run::BusEvent> emitted;  // with a tap: by the plan, whose frames are not sent yet
     debug::Network network;
     hub::Hub hub;
     net::Links net;  // after the hub: it goes first
@@ -149,20 +156,52 @@ std::vector<run::BusEvent> PlanBus::Insides::turn(Time deadline) {
         stopping.tick(net.now());
         deadline = std::min(deadline, stopping.next_tick());
     }
-    for (const wire::Frame& frame : network.take_frames()) hub.receive(own, frame);
+    for (const wire::Frame& frame : network.take_frames()) {
+        if (tap) tell_sent(frame);
+        hub.receive(own, frame);
+    }
     note(net.poll(std::min(deadline, network.next_tick())));
-    wire::Frame frame;
-    while (hub.take(own, frame)) network.receive(net.now(), frame);
     std::vector<run::BusEvent> heard;
-    for (const debug::Event& event : network.take_events()) {
+    hear(0, heard);
+    wire::Frame frame;
+    while (hub.take(own, frame)) {
+        const uint32_t number = tap ? tap->frame(frame, nullptr) : 0;
+        network.receive(net.now(), frame);
+        hear(number, heard);
+    }
+    return heard;
+}
+
+// What the network has to tell, of that frame.
+void PlanBus::Insides::hear(uint32_t frame, std::vector<run::BusEvent>& heard) {
+    for (debug::Event& event : network.take_events()) {
+        event.frame = frame;
         if (roll_call) roll_call->hear(event);
         look_for_rivals(event);
         if (is_stopping) stopping.hear(event);
         stopped_by_others.hear(event);
         look_for_missing(event);
+        if (tap && std::holds_alternative<debug::NodeDescribed>(event.what)) {
+            tap->described(*network.node(event.node));
+        }
         if (auto one = ears.hear(event)) heard.push_back(std::move(*one));
     }
-    return heard;
+}
+
+void PlanBus::Insides::tell_sent(const wire::Frame& frame) {
+    const bool of_plan = wire::is_user_event(frame.type) && !emitted.empty();
+    (void)tap->frame(frame, of_plan ? &emitted.front() : nullptr);
+    if (of_plan) emitted.pop_front();
+}
+
+void PlanBus::Insides::set_tap(BusTap* follows) {
+    tap = follows;
+    emitted.clear();
+    if (!tap) return;
+    tap->begin(options.common, [this] { return net.now(); });
+    for (const debug::NodeId id : network.nodes()) {
+        if (network.node(id)->described) tap->described(*network.node(id));
+    }
 }
 
 // Another host starts work on the nodes of this plan.
@@ -237,7 +276,7 @@ void PlanBus::Insides::take_unsent() {
     for (const auto& event : events) {
         if (!may_send(event)) continue;
         rivals.said(event);
-        (void)network.emit(event.name, event.arguments).ok();
+        if (network.emit(event.name, event.arguments).ok() && tap) emitted.push_back(event);
     }
 }
 
@@ -256,7 +295,10 @@ void PlanBus::Insides::work(run::RealTime& run) {
         look_for_held(run);
         hold_what_brakes(run);
         look_for_stopped(run);
-        if (const auto token = std::exchange(moved_to, std::nullopt)) run.move_tokens(*token);
+        if (const auto token = std::exchange(moved_to, std::nullopt)) {
+            if (tap) tap->tokens(*token);
+            run.move_tokens(*token);
+        }
     }
     is_working = false;
     has_let_run = false;
@@ -289,7 +331,10 @@ void PlanBus::Insides::look_for_held(run::RealTime& run) {
 void PlanBus::Insides::look_for_stopped(run::RealTime& run) {
     for (const debug::NodeId id : stopped_by_others.take_due(net.now())) {
         const bool ends = ends_when_stopped && !stop_asked && is_worked_on(id);
-        if (ends) run.fail(toolbox::was_stopped(network.node(id)->name));
+        if (!ends) continue;
+        const std::string why = toolbox::was_stopped(network.node(id)->name);
+        if (tap) tap->fails(why);
+        run.fail(why);
     }
 }
 
@@ -473,6 +518,15 @@ void PlanBus::join(run::RunOptions& options) {
         return insides.names.may_emit(event);
     };
     options.on_emit = [&insides](const run::BusEvent& event) { insides.emit(event); };
+    BusTap* const tap = insides.follower();
+    options.on_hear = {};
+    if (!tap) return;
+    tap->tokens(options.first_token);
+    options.on_hear = [tap](const run::BusEvent& event, Time at) { tap->hears(event, at); };
+}
+
+void PlanBus::tap(BusTap* tap) {
+    insides_->set_tap(tap);
 }
 
 void PlanBus::end_when_stopped() {

@@ -19,6 +19,7 @@
 
 #include "aesl/target.hpp"
 #include "base/result.hpp"
+#include "embed/bus_tap.hpp"
 #include "run/options.hpp"
 #include "run/real_time.hpp"
 #include "session/bus_names.hpp"
@@ -73,6 +74,8 @@ public:
     // From any thread: these nodes, and no others, are held by somebody who debugs them. The plan
     // waits for them as long as that takes.
     void hold_nodes(std::set<debug::NodeId> nodes);
+    // Before join(): is told of the frames from now on, of tokens and failures; nullptr: nobody is.
+    void tap(BusTap* tap);
     // From now on the run hears each event of the bus. A lost connection is tried again, and its
     // nodes are gone meanwhile. Borrowed until leave().
     void start(run::RealTime& run);

@@ -101,6 +101,7 @@ public:
     run::Ended run_with(run::Clock clock, const std::function<run::Ended(run::Execution&)>& go);
     void abort(const std::string& by);
     void abort_this();
+    void follow_bus(BusTap* follows);
     void set(int slot, plan::Value value);
     void reseed(uint64_t with);
     void defer_aborts() { deferred_ = true; }
@@ -130,6 +131,7 @@ public:
     std::unique_ptr<net::Links> hosts;  // after the world: its links leave that bus first
     std::string listening;
     std::unique_ptr<PlanBus> bus;
+    BusTap* tap = nullptr;
     LineSink sink;
     LineSink sink_all;
     std::function<void(const std::string&)> tell = tell_on_stderr;
@@ -399,6 +401,7 @@ void PreparedRun::Insides::abort_it(const std::string& by) {
         return;
     }
     ended_by_ = by;
+    if (tap) tap->aborts(by);
     execution_->abort();
     if (bus) bus->stop_robot();
     if (world) world->close_but_for(session::stop_events(what.library().templates()));
@@ -412,6 +415,15 @@ std::optional<std::string> PreparedRun::Insides::take_abort() {
     abort_it(*by);
     deferred_ = true;
     return by;
+}
+
+void PreparedRun::Insides::follow_bus(BusTap* follows) {
+    if (!bus) return;
+    const std::lock_guard lock(mutex_);
+    tap = follows;
+    bus->tap(tap);
+    if (!tap) return nodes.listen({});
+    nodes.listen([this](const std::string& name, auto change) { tap->node(name, change); });
 }
 
 void PreparedRun::Insides::set(int slot, plan::Value value) {
@@ -482,6 +494,10 @@ Result<run::Ended> PreparedRun::run(run::Debugger* debugger) {
 
 void PreparedRun::abort(const std::string& by) {
     insides_->abort(by.empty() ? kSomebody : by);
+}
+
+void PreparedRun::tap(BusTap* tap) {
+    insides_->follow_bus(tap);
 }
 
 void PreparedRun::end_when_stopped() {

@@ -34,6 +34,8 @@ class PlanWorld;
 
 namespace vagus::embed {
 
+class BusTap;
+
 constexpr Duration kWorldMaxTime = std::chrono::seconds(3600);  // beside a world, unless told
 
 class PreparedRun {
@@ -72,6 +74,9 @@ public:
     // Can be called again: each is a run of its own, in a world of its own. Fails only where that
     // world cannot be opened any more.
     Result<run::Ended> run(run::Debugger* debugger = nullptr);
+    // Before run(), on a bus: is told of all that comes and goes; borrowed until tap(nullptr),
+    // after the run.
+    void tap(BusTap* tap);
     // Before run(), on a bus that nobody else looks after, as a debugger would that stops nodes and
     // lets them run again: a run whose nodes another host stops ends with an error. A host that
     // pauses nodes says so.

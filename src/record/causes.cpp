@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "record/past_bus.hpp"
 #include "session/plan_world.hpp"
 #include "wire/bytes.hpp"
 #include "wire/protocol.hpp"
@@ -85,6 +86,7 @@ Causes::Causes(Rerun& rerun) : rerun_(rerun) {
         raised_[lines_.size()] = raising.tied;  // its line is the next
         return false;
     });
+    if (rerun.past_bus() != nullptr) learn(*rerun.past_bus());
     session::SimSession* const session = rerun.session();
     if (session == nullptr) return;
     sim::World& world = session->world();
@@ -122,6 +124,21 @@ Causes::~Causes() {
     session->world().watch(nullptr);
     session->world().on_timeline({});
     if (rerun_.plan_world() != nullptr) rerun_.plan_world()->on_emit({});
+}
+
+void Causes::learn(const PastBus& past) {
+    for (const auto& [number, one] : past.events()) {
+        const RecordedEvent& event = one.event;
+        Frame& frame = frames_[number];
+        frame.at = event.at;
+        frame.event = event.name;
+        frame.arguments = event.arguments;
+        frame.source = event.node;
+        frame.of_bus = event.node != wire::kHostId;
+        frame.by = event.by;
+        frame.line = one.lines;
+        frame.cause = one.cause;
+    }
 }
 
 Time Causes::now() const {
@@ -302,11 +319,17 @@ const Causes::Call* Causes::call(uint32_t number) const {
     return number == 0 || number > calls_.size() ? nullptr : &calls_[number - 1];
 }
 
-uint32_t Causes::last_event(std::string_view name) const {
+uint32_t Causes::last_event(std::string_view name, uint32_t before) const {
     for (auto at = frames_.rbegin(); at != frames_.rend(); ++at) {
-        if (at->second.event == name) return at->first;
+        if (at->first < before && at->second.event == name) return at->first;
     }
     return 0;
+}
+
+std::vector<std::string> Causes::events_seen() const {
+    std::vector<std::string> names;
+    for (const auto& [number, frame] : frames_) names.push_back(frame.event);
+    return names;
 }
 
 std::optional<Causes::Deed> Causes::last_write(const sim::WitnessedNode& node, uint16_t address,

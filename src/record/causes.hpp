@@ -62,11 +62,12 @@ public:
         std::string event;  // its name; empty: no user event
         std::vector<int16_t> arguments;
         uint16_t source = 0;
-        sim::WitnessedNode node;  // robot 0: a host
+        sim::WitnessedNode node;  // robot 0: a host, or of_bus
         Deed deed;                // of a node
         std::string by;           // of the plan: the element whose code emitted it …
         size_t line = 0;          // … how many lines the trace had then …
         uint32_t cause = 0;       // … and the frame that this code had heard last
+        bool of_bus = false;      // of a node of a real bus, whose script nobody has seen run
     };
     // Something in the world that no script did.
     struct Happening {
@@ -97,8 +98,9 @@ public:
     const Frame* frame(uint32_t number) const;
     const HandlerRun* run(uint32_t number) const;
     const Call* call(uint32_t number) const;
-    // The last frame with a user event of that name; 0: none.
-    uint32_t last_event(std::string_view name) const;
+    // The last frame with a user event of that name, before that frame; 0: none.
+    uint32_t last_event(std::string_view name, uint32_t before = UINT32_MAX) const;
+    std::vector<std::string> events_seen() const;  // their names
     // The last write to any of `count` words from `address` on.
     std::optional<Deed> last_write(const sim::WitnessedNode& node, uint16_t address,
                                    uint16_t count) const;
@@ -134,6 +136,7 @@ private:
     };
 
     Time now() const;
+    void learn(const PastBus& past);
     void begin_run(HandlerRun run);
     void frame_on_bus(const wire::Frame& frame, uint32_t number);
     void host_sets(const wire::Frame& frame);

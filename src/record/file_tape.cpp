@@ -14,7 +14,7 @@ Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace
 
 Result<std::unique_ptr<FileTape>> start_tape(const std::string& path, RunFile& about,
                                              const PackedFiles& files, Pace pace) {
-    for (std::string* const one : {&about.plan, &about.world, &about.answers}) {
+    for (std::string* const one : {&about.plan, &about.world, &about.answers, &about.project}) {
         *one = files.name_of(*one);
     }
     for (std::string& one : about.toolboxes) one = files.name_of(one);
@@ -34,30 +34,33 @@ FileTape::~FileTape() {
 
 void FileTape::attach(const std::string& name, std::string_view content) {
     const std::lock_guard lock(writing_);
+    write_attachment(name, content);
+}
+
+void FileTape::attach_later(const std::string& name, std::string content) {
+    const size_t bytes = content.size();
+    wait_for({.data = std::move(content), .bytes = bytes, .attached = name});
+}
+
+void FileTape::write_attachment(const std::string& name, std::string_view content) {
     const bool json = name.ends_with(".json");
     writer_.attach({name, json ? "application/json" : "application/octet-stream", 0, content});
 }
 
 uint16_t FileTape::declare(const Topic& topic) {
-    const std::lock_guard lock(writing_);
-    mcap::Channel channel{.topic = topic.name, .encoding = topic.json ? "json" : "vagus-frame"};
-    if (!topic.schema.empty()) {
-        channel.schema = writer_.add_schema({.name = std::string(topic.schema),
-                                             .encoding = "jsonschema",
-                                             .data = std::string(schema_text(topic.schema))});
-    }
-    const std::lock_guard also(mutex_);
+    const std::lock_guard lock(mutex_);
+    if (topics_.size() >= mcap::kChannelsMax) return 0;
     topics_.push_back(topic);
-    return writer_.add_channel(std::move(channel));
+    return static_cast<uint16_t>(topics_.size());
 }
 
 void FileTape::put(uint16_t topic, Time at, std::string data) {
     const size_t bytes = data.size();
-    wait_for({topic, at, std::move(data), {}, bytes});
+    wait_for({.topic = topic, .at = at, .data = std::move(data), .bytes = bytes});
 }
 
 void FileTape::put_later(uint16_t topic, Time at, size_t about_bytes, Word word) {
-    wait_for({topic, at, {}, std::move(word), about_bytes});
+    wait_for({.topic = topic, .at = at, .bytes = about_bytes, .word = std::move(word)});
 }
 
 void FileTape::wait_for(Message message) {
@@ -65,8 +68,9 @@ void FileTape::wait_for(Message message) {
     if (pace_ == Pace::Waits) {
         room_.wait(lock, [this] { return waiting_bytes_ < kDropFrom || !state_.ok(); });
     }
-    if (over_ || !state_.ok() || message.topic == 0) return;
-    if (waiting_bytes_ >= kDropFrom && topics_[message.topic - 1u].may_be_dropped) {
+    const bool is_file = !message.attached.empty();
+    if (over_ || !state_.ok() || (message.topic == 0 && !is_file)) return;
+    if (waiting_bytes_ >= kDropFrom && !is_file && topics_[message.topic - 1u].may_be_dropped) {
         ++dropped_;
         return;
     }
@@ -82,8 +86,10 @@ void FileTape::wait_for(Message message) {
 
 void FileTape::work() {
     bool last = false;
+    size_t known = 0;  // of the topics
     while (!last) {
         std::vector<Message> messages;
+        std::vector<Topic> declared;
         uint64_t flush = 0;
         {
             std::unique_lock lock(mutex_);
@@ -93,21 +99,34 @@ void FileTape::work() {
             messages = std::exchange(waiting_, {});
             last = over_;
             flush = flush_wanted_;
+            declared.assign(topics_.begin() + static_cast<std::ptrdiff_t>(known), topics_.end());
         }
-        write(messages, last);
+        known += declared.size();
+        write(messages, declared, last);
         const std::lock_guard lock(mutex_);
         flush_done_ = flush;
     }
 }
 
-void FileTape::write(const std::vector<Message>& messages, bool last) {
+void FileTape::write(const std::vector<Message>& messages, const std::vector<Topic>& declared,
+                     bool last) {
     size_t bytes = 0;
     Status written = Status::done();
     {
         const std::lock_guard lock(writing_);
+        for (const Topic& topic : declared) {
+            mcap::Channel channel{.topic = topic.name,
+                                  .encoding = topic.json ? "json" : "vagus-frame"};
+            if (!topic.schema.empty()) {
+                channel.schema =
+                    writer_.add_schema({.name = std::string(topic.schema),
+                                        .encoding = "jsonschema",
+                                        .data = std::string(schema_text(topic.schema))});
+            }
+            channels_.push_back(writer_.add_channel(std::move(channel)));
+        }
         for (const Message& message : messages) {
-            writer_.write(message.topic, nanoseconds(message.at),
-                          message.word ? message.word() : message.data);
+            write(message);
             bytes += message.bytes;
         }
         written = last ? writer_.end() : writer_.flush();
@@ -117,6 +136,12 @@ void FileTape::write(const std::vector<Message>& messages, bool last) {
     waiting_bytes_ -= bytes;
     if (state_.ok()) state_ = written;
     room_.notify_one();
+}
+
+void FileTape::write(const Message& message) {
+    if (!message.attached.empty()) return write_attachment(message.attached, message.data);
+    writer_.write(channels_[message.topic - 1u], nanoseconds(message.at),
+                  message.word ? message.word() : message.data);
 }
 
 Status FileTape::end() {

@@ -45,7 +45,10 @@ public:
     // As end(), whose answer nobody hears.
     ~FileTape() override;
 
+    // At once, so before the run.
     void attach(const std::string& name, std::string_view content);
+    // The same while the run goes on, as a message: nobody waits.
+    void attach_later(const std::string& name, std::string content);
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string data) override;
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override;
@@ -63,20 +66,24 @@ private:
     struct Message {
         uint16_t topic = 0;
         Time at{};
-        std::string data;
-        Word word;  // instead of the data
+        std::string data = {};
         size_t bytes = 0;
+        Word word = {};             // instead of the data
+        std::string attached = {};  // the data is a file of that name
     };
     void wait_for(Message message);
     void work();
-    void write(const std::vector<Message>& messages, bool last);
+    void write(const std::vector<Message>& messages, const std::vector<Topic>& declared, bool last);
+    void write(const Message& message);
+    void write_attachment(const std::string& name, std::string_view content);
 
     const Pace pace_;
     std::atomic<uint64_t> bytes_ = 0;
-    std::mutex writing_;  // guards the next two
+    std::mutex writing_;  // guards the next two; held while the disk is waited for
     mcap::Writer writer_;
-    std::vector<Topic> topics_;  // by number - 1
-    mutable std::mutex mutex_;   // guards what follows
+    std::vector<uint16_t> channels_;  // of topics, by number - 1
+    mutable std::mutex mutex_;        // guards what follows; never held for long
+    std::vector<Topic> topics_;       // by number - 1
     std::condition_variable more_;
     std::condition_variable room_;
     std::vector<Message> waiting_;

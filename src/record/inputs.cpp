@@ -27,6 +27,12 @@ constexpr std::pair<StopKind, std::string_view> kStops[] = {{StopKind::Actor, "a
                                                             {StopKind::State, "state"},
                                                             {StopKind::Event, "event"},
                                                             {StopKind::Condition, "condition"}};
+using NodeChange = toolbox::BusNodes::Change;
+constexpr std::pair<NodeChange, std::string_view> kNodeChanges[] = {
+    {NodeChange::Appeared, "appeared"},
+    {NodeChange::Left, "left"},
+    {NodeChange::Stopped, "stopped"},
+    {NodeChange::Runs, "runs"}};
 constexpr sim::ObjectKind kObjects[] = {sim::ObjectKind::Wall,     sim::ObjectKind::Box,
                                         sim::ObjectKind::Cylinder, sim::ObjectKind::Patch,
                                         sim::ObjectKind::Light,    sim::ObjectKind::Infrared};
@@ -180,6 +186,23 @@ struct Format {
     }
     std::string operator()(const Reseeded& drawn) const {
         return Message(input, "reseed").whole("seed", drawn.seed).done();
+    }
+    std::string operator()(const Heard& heard) const {
+        Message message(input, "hear");
+        if (heard.frame != 0) return message.whole("frame", heard.frame).done();
+        return message.text("name", heard.name).whole("from", heard.from).done();
+    }
+    std::string operator()(const NodeChanged& node) const {
+        return Message(input, "node")
+            .text("name", node.name)
+            .text("state", word_of(kNodeChanges, node.change))
+            .done();
+    }
+    std::string operator()(const TokensMoved& moved) const {
+        return Message(input, "tokens").whole("token", moved.token).done();
+    }
+    std::string operator()(const RunFailed& failed) const {
+        return Message(input, "fail").text("why", failed.why).done();
     }
     std::string operator()(const Aborted& aborted) const {
         return Message(input, "abort").text("by", aborted.by).done();
@@ -426,6 +449,17 @@ bool read_what(const std::string& what, const Members& from, Input& input) {
         input.what = FileTookOver{from.text("file"), from.text("value")};
     } else if (what == "reseed") {
         input.what = Reseeded{from.whole<uint64_t>("seed")};
+    } else if (what == "hear") {
+        input.what =
+            Heard{from.whole<uint32_t>("frame"), from.text("name"), from.whole<uint16_t>("from")};
+    } else if (what == "node") {
+        const auto change = value_of(kNodeChanges, from.text("state"));
+        if (!change) return false;
+        input.what = NodeChanged{from.text("name"), *change};
+    } else if (what == "tokens") {
+        input.what = TokensMoved{from.whole<uint16_t>("token")};
+    } else if (what == "fail") {
+        input.what = RunFailed{from.text("why")};
     } else if (what == "abort") {
         input.what = Aborted{from.text("by")};
     } else if (what == "end") {

@@ -21,6 +21,7 @@
 #include "base/time.hpp"
 #include "run/debug_values.hpp"
 #include "sim/world.hpp"
+#include "toolbox/bus.hpp"
 #include "wire/frame.hpp"
 
 namespace vagus::record {
@@ -59,15 +60,35 @@ struct Reseeded {
 struct Aborted {
     std::string by = {};
 };
+// Of a plan on a real bus: what it heard, in the order in which it decided on it. An event is that
+// of a recorded frame; what it is told of its nodes is a name (toolbox/bus.hpp).
+struct Heard {
+    uint32_t frame = 0;
+    std::string name = {};  // where there is no frame
+    uint16_t from = 0;
+};
+// The same: a node came, left, was stopped, or runs again (toolbox::BusNodes).
+struct NodeChanged {
+    std::string name = {};
+    toolbox::BusNodes::Change change = toolbox::BusNodes::Change::Appeared;
+};
+// The same: its tokens count from this one (run::Numbers).
+struct TokensMoved {
+    uint16_t token = 0;
+};
+// The same: it could not go on.
+struct RunFailed {
+    std::string why = {};
+};
 // Nothing is recorded from here on.
 struct RecordingEnds {
     std::string why = {};  // empty: the run was over
 };
 
 // Of requests to the debugger: those of does_something().
-using InputWhat =
-    std::variant<sim::Act, wire::Frame, HeldMoment, HeardAhead, run::Request, PlanFiles,
-                 ScriptLoaded, ValueGiven, FileTookOver, Reseeded, Aborted, RecordingEnds>;
+using InputWhat = std::variant<sim::Act, wire::Frame, HeldMoment, HeardAhead, run::Request,
+                               PlanFiles, ScriptLoaded, ValueGiven, FileTookOver, Reseeded, Heard,
+                               NodeChanged, TokensMoved, RunFailed, Aborted, RecordingEnds>;
 
 struct Input {
     Time at{};

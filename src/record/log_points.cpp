@@ -173,7 +173,9 @@ Status LogPoints::add(const LogWish& wish) {
                       fmt::format("expected {}; found \"{}\"", kForms, wish.where));
     }
     if (run_.session == nullptr) {
-        return refuse(Code::NotFound, wish, "the run is of a plan alone: it has no nodes");
+        return refuse(
+            Code::NotFound, wish,
+            "no node of this run can be run again, for it is of a plan alone or of a real bus");
     }
     made.node = wish.where.substr(0, colon);
     made.line = line;

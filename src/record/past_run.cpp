@@ -61,7 +61,7 @@ bool ends_it(const Input& input) {
 
 // Inputs of other verbs than the studio's have no turns.
 Status check_lived(const PastRun& past, const std::string& path) {
-    if (past.about.kind != "simulated") {
+    if (past.about.is_of_bus()) {
         return Error{Code::Refused, path +
                                         ": is a recording of a real bus, whose robot cannot be "
                                         "run again"};

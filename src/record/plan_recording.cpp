@@ -30,11 +30,22 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
     attach(*made->recorder_, run);
     run.listen(
         [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; });
+    made->run_ = &run;
+    if (!about.is_of_bus()) return made;
+    made->tap_ = std::make_unique<PlanBusTap>(*made->tape_, *made->recorder_);
+    run.listen([tap = made->tap_.get()](const plan::TraceEvent& event) { tap->sees(event); });
+    run.tap(made->tap_.get());
     return made;
 }
 
 Status PlanRecording::end() {
-    if (recorder_) recorder_->end(last_);
+    if (tap_) {
+        run_->tap(nullptr);
+        recorder_->input_at(tap_->now(), RecordingEnds{});
+    } else if (recorder_) {
+        recorder_->end(last_);
+    }
+    tap_.reset();
     recorder_.reset();
     return tape_->end();
 }

@@ -1,4 +1,5 @@
 // The recording of a run that `vagus plan run` prepares: from before its first instant to its end.
+// One on a real bus (RunFile::is_of_bus()) is recorded with its frames.
 //
 //     FilesRead files;                                       // before anything is read
 //     …                                                      // the run is prepared
@@ -13,6 +14,7 @@
 #include "base/file.hpp"
 #include "embed/prepared_run.hpp"
 #include "record/file_tape.hpp"
+#include "record/plan_bus_tap.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
 
@@ -39,6 +41,8 @@ private:
 
     std::unique_ptr<FileTape> tape_;
     std::unique_ptr<Recorder> recorder_;
+    std::unique_ptr<PlanBusTap> tap_;  // on a real bus
+    embed::PreparedRun* run_ = nullptr;
     Time last_{};  // line of the trace
 };
 

@@ -9,8 +9,7 @@
 #include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "base/trig.hpp"
-#include "mcap/records.hpp"
-#include "wire/bytes.hpp"
+#include "record/bus_messages.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus::record {
@@ -31,14 +30,6 @@ std::string bytes_of(const sim::Pose& pose) {
     std::array<double, 3> numbers = {pose.at.x, pose.at.y, pose.angle};
     std::copy_n(reinterpret_cast<const char*>(numbers.data()), sizeof numbers, bytes.data());
     return bytes;
-}
-
-std::string words_json(std::span<const int16_t> words) {
-    std::string text = "[";
-    for (size_t i = 0; i < words.size(); ++i) {
-        text += fmt::format("{}{}", i > 0 ? "," : "", words[i]);
-    }
-    return text + "]";
 }
 
 std::string key_of(const sim::ObjectView& object) {
@@ -187,8 +178,11 @@ void Recorder::instant() {
 }
 
 void Recorder::input(InputWhat what) {
+    input_at(now(), std::move(what));
+}
+
+void Recorder::input_at(Time at, InputWhat what) {
     if (std::exchange(turn_begins_, false)) ++turn_;
-    const Time at = now();
     tape_.put(input_, at, format_input({at, turn_, std::move(what)}));
 }
 
@@ -243,48 +237,18 @@ void Recorder::trace(const plan::TraceEvent& event) {
 
 void Recorder::frame(const wire::Frame& frame, uint32_t number) {
     const Time at = now();
-    std::array<uint8_t, wire::kFrameMax> bytes;
-    const uint16_t size = wire::encode(frame, bytes.data());
-    std::string data;
-    mcap::Put put(data);
-    put.u32(number).u32(session_->world().frame_numbers()->cause_of(number)).u16(frame.source);
-    put.bytes({reinterpret_cast<const char*>(bytes.data()), size});
-    tape_.put(frames_, at, std::move(data));
-    if (wire::is_user_event(frame.type)) event(frame, number, at);
-}
-
-void Recorder::event(const wire::Frame& frame, uint32_t number, Time at) {
-    const auto& events = session_->common().events;
-    const std::string name =
-        frame.type < events.size() ? events[frame.type].name : std::to_string(frame.type);
-    std::vector<int16_t> words;
-    wire::Reader reader(frame.payload, frame.size);
-    while (reader.left() >= 2) words.push_back(static_cast<int16_t>(reader.u16()));
-    tape_.put(
-        events_, at,
-        fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}}})", seconds_text(at),
-                    number, frame.source, json_quote(name), words_json(words)));
+    const uint32_t cause = session_->world().frame_numbers()->cause_of(number);
+    tape_.put(frames_, at, format_frame({number, cause, frame}));
+    if (!wire::is_user_event(frame.type)) return;
+    tape_.put(events_, at,
+              format_event({.at = at,
+                            .frame = number,
+                            .node = frame.source,
+                            .name = event_name(session_->common(), frame),
+                            .arguments = words_of(frame)}));
 }
 
 // ---- nodes ----
-
-// Those that are not as they were before, or all.
-std::string Recorder::variables_json(const std::vector<Variable>& variables,
-                                     const std::vector<int16_t>& before,
-                                     const std::vector<int16_t>& now, bool all, Time at) {
-    std::string set;
-    for (const Variable& variable : variables) {
-        if (size_t{variable.address} + variable.size > now.size()) continue;
-        const auto begin = now.begin() + variable.address;
-        if (!all && std::equal(begin, begin + variable.size, before.begin() + variable.address)) {
-            continue;
-        }
-        set += (set.empty() ? "" : ",") + json_quote(variable.name) + ":";
-        set += variable.size == 1 ? std::to_string(*begin)
-                                  : words_json({begin, begin + variable.size});
-    }
-    return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
-}
 
 std::string Recorder::label_of(sim::RobotId robot, const std::string& name) const {
     const auto& robots = session_->world().definition().robots;
@@ -314,7 +278,7 @@ void Recorder::learn_variables(Node& node) {
     if (target == nullptr || (node.variables && program == node.program)) return;
     node.program = program;
     node.pictured = false;
-    auto variables = std::make_shared<std::vector<Variable>>();
+    auto variables = std::make_shared<RecordedVariables>();
     uint16_t address = 0;
     for (const aesl::NamedVariable& one : target->variables) {
         variables->push_back({one.name, address, one.size});
@@ -338,9 +302,13 @@ void Recorder::variables(Node& node, Time at, bool all) {
     const size_t bytes = kBytesOfWord * words.size();
     std::vector<int16_t> before = std::exchange(node.words, {words.begin(), words.end()});
     node.pictured = true;
-    tape_.put_later(node.topic, at, bytes,
-                    [names = node.variables, before = std::move(before), now = node.words, picture,
-                     at] { return variables_json(*names, before, now, picture, at); });
+    tape_.put_later(
+        node.topic, at, bytes,
+        [names = node.variables, before = std::move(before), now = node.words, picture, at] {
+            const RecordedVariables changed =
+                picture ? *names : changed_variables(*names, before, now);
+            return format_variables(changed, now, picture, at);
+        });
 }
 
 // ---- the world ----

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "plan/trace.hpp"
+#include "record/bus_messages.hpp"
 #include "record/inputs.hpp"
 #include "record/topics.hpp"
 #include "session/sim_session.hpp"
@@ -56,6 +57,8 @@ public:
 
     // ---- what comes from outside, now; acts and frames are heard here ----
     void input(InputWhat what);
+    // The same at a time, of a run without a world: from any thread.
+    void input_at(Time at, InputWhat what);
     // What comes from here on has another turn, or that one.
     void begin_turn() { turn_begins_ = true; }
     void set_turn(uint32_t turn) { turn_ = turn; }
@@ -71,19 +74,14 @@ public:
     std::string check_text(Time at) const;
 
 private:
-    struct Variable {
-        std::string name;
-        uint16_t address = 0;
-        uint16_t size = 0;
-    };
     struct Node {
         sim::RobotId robot;
         uint16_t id = 0;
         std::string label;  // in topics and checks
         uint16_t topic = 0;
-        std::shared_ptr<const std::vector<Variable>> variables;  // shared with what is worded
-        const void* program = nullptr;                           // whose variables these are
-        std::vector<int16_t> words;                              // as they were recorded
+        std::shared_ptr<const RecordedVariables> variables;  // shared with what is worded
+        const void* program = nullptr;                       // whose variables these are
+        std::vector<int16_t> words;                          // as they were recorded
         bool pictured = false;
     };
 
@@ -92,13 +90,9 @@ private:
     void instant();
     void from_outside(hub::LinkId from, const wire::Frame& frame);
     void frame(const wire::Frame& frame, uint32_t number);
-    void event(const wire::Frame& frame, uint32_t number, Time at);
     void look_for_nodes();
     void learn_variables(Node& node);
     void variables(Node& node, Time at, bool all);
-    static std::string variables_json(const std::vector<Variable>& variables,
-                                      const std::vector<int16_t>& before,
-                                      const std::vector<int16_t>& now, bool all, Time at);
     void scene(Time at);
     void poses(Time at);
     void check(Time at);

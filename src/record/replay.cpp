@@ -12,6 +12,7 @@
 #include "embed/plan_versions.hpp"
 #include "embed/prepared_run.hpp"
 #include "embed/robots_run.hpp"
+#include "record/bus_rerun.hpp"
 #include "record/past_run.hpp"
 #include "record/plan_recording.hpp"
 #include "record/robot_recorders.hpp"
@@ -583,11 +584,7 @@ Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
                                            const RerunOptions& options) {
     RecordedRun recorded = TRY(read_recorded(reader));
     RunFile run = std::move(recorded.about);
-    if (run.kind != "simulated") {
-        return Error{Code::Refused, reader.name() +
-                                        ": is a recording of a real bus, whose robot "
-                                        "cannot be run again"};
-    }
+    if (run.is_of_bus()) return open_bus_rerun(reader, std::move(run), options);
     UnpackedFolder folder = TRY(UnpackedFolder::make());
     for (const mcap::Attachment& one : reader.attachments()) {
         const auto instead = options.with.find(one.name);

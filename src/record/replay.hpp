@@ -7,7 +7,7 @@
 //     tape.end();
 //
 // In virtual time, by the same code that ran it: `plan run`, alone or beside a world, `sim`, and
-// runs of the studio.
+// runs of the studio. Of a run on a real bus only the plan decides again (bus_rerun.hpp).
 #pragma once
 
 #include <functional>
@@ -31,6 +31,8 @@ class PlanWorld;
 }
 
 namespace vagus::record {
+
+class PastBus;
 
 struct RerunOptions {
     // Files in place of those of the recording, by name in it: their content.
@@ -98,6 +100,8 @@ public:
     virtual session::PlanWorld* plan_world() = 0;
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
+    // Of a recording of a real bus: what was on it; else nullptr. There is no session then.
+    virtual const PastBus* past_bus() const { return nullptr; }
     // When the last thing of it was recorded.
     Time recorded_until() const { return end_; }
     const RunFile& about() const { return about_; }

@@ -24,9 +24,10 @@ struct TextKey {
     std::string RunFile::*at;
 };
 constexpr TextKey kTexts[] = {
-    {"kind", &RunFile::kind},         {"verb", &RunFile::verb},   {"plan", &RunFile::plan},
-    {"world", &RunFile::world},       {"from", &RunFile::from},   {"seed", &RunFile::seed},
-    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot}, {"answers", &RunFile::answers}};
+    {"kind", &RunFile::kind},         {"verb", &RunFile::verb},      {"plan", &RunFile::plan},
+    {"world", &RunFile::world},       {"from", &RunFile::from},      {"seed", &RunFile::seed},
+    {"max_time", &RunFile::max_time}, {"robot", &RunFile::robot},    {"answers", &RunFile::answers},
+    {"bus", &RunFile::bus},           {"project", &RunFile::project}};
 struct ListKey {
     std::string_view key;
     std::vector<std::string> RunFile::*at;

@@ -21,14 +21,18 @@
 namespace vagus::record {
 
 constexpr std::string_view kStudioVerb = "studio";
+constexpr std::string_view kNetVerb = "net record";
+constexpr std::string_view kBusKind = "bus";
 
 // Paths are names of attachments.
 struct RunFile {
-    std::string kind = "simulated";         // or "bus"
-    std::string verb = {};                  // "plan run", "sim", kStudioVerb
+    std::string kind = "simulated";         // or kBusKind
+    std::string verb = {};                  // "plan run", "sim", kNetVerb, kStudioVerb
     std::vector<std::string> command = {};  // as it was typed, for people
     std::string plan = {};
     std::string world = {};
+    std::string bus = {};      // a target, for people
+    std::string project = {};  // of a real bus: gives the names of its events
     std::vector<std::string> toolboxes = {};
     std::vector<std::string> set = {};
     std::string from = {};
@@ -41,6 +45,8 @@ struct RunFile {
     std::vector<std::string> loads = {};  // --load of sim
     // Of a world whose robots have projects of their own: their names, in the order of the file.
     std::vector<std::string> robots = {};
+
+    bool is_of_bus() const { return kind == kBusKind; }
 };
 
 // One line of JSON.

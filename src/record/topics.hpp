@@ -19,6 +19,7 @@ constexpr std::string_view kTraceTopic = "/plan/trace";
 constexpr std::string_view kStatesTopic = "/plan/states";
 constexpr std::string_view kFramesTopic = "/bus/frames";
 constexpr std::string_view kEventsTopic = "/bus/events";
+constexpr std::string_view kNodesTopic = "/bus/nodes";
 constexpr std::string_view kPosesTopic = "/world/poses";
 constexpr std::string_view kSceneTopic = "/world/scene";
 constexpr std::string_view kChaosTopic = "/world/chaos";

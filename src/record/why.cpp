@@ -4,6 +4,7 @@
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "record/past_bus.hpp"
 #include "record/past_run.hpp"
 #include "record/why_walk.hpp"
 
@@ -22,6 +23,18 @@ Status tell_losers(const mcap::Reader& reader, const Causes& causes,
         if (!chain[link].lost.empty()) chain[link].what += " and " + won_against(chain[link].lost);
     }
     return Status::done();
+}
+
+// Of a real bus: what the plan decides otherwise than it did has no causes in the recording.
+Status check_in_step(const mcap::Reader& reader, const Rerun& rerun, std::optional<Time> at) {
+    if (rerun.past_bus() == nullptr) return Status::done();
+    const std::optional<Time> parted = rerun.past_bus()->parted();
+    if (!parted || *parted > at.value_or(rerun.recorded_until())) return Status::done();
+    return Error{Code::Refused,
+                 fmt::format("{}: at {} s the plan decides otherwise than it did (`vagus replay` "
+                             "tells what), so nothing can be told of what came after it; ask about "
+                             "an earlier instant, with --at",
+                             reader.name(), seconds_text(*parted))};
 }
 
 }  // namespace
@@ -75,6 +88,7 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
         });
     }
     (void)TRY(rerun->run(tape));
+    TRY(check_in_step(reader, *rerun, at));
     if (!answer) answer_now();
     if (answer->ok()) TRY(tell_losers(reader, causes, ties, answer->value()));
     return *answer;
@@ -99,6 +113,7 @@ std::string format_chain_json(const Chain& chain) {
                                 json_quote(one.place));
         }
         if (!lost.empty()) lost = ",\"lost\":[" + lost + "]";
+        if (link.guessed) lost += ",\"guessed\":true";
         text +=
             fmt::format(R"({}{{"t":{},"what":{},"place":{},"value":{},"root":{},"element":{}{}}})",
                         text.size() > 1 ? ",\n" : "\n", seconds_text(link.at),

@@ -6,7 +6,8 @@
 //     for (const Link& link : chain) print(format_link(link));
 //
 // The run is run again up to the instant in question (replay.hpp), and its scripts are followed
-// instruction by instruction.
+// instruction by instruction. Of a real bus only its plan is; the rest is told by frames
+// (why_bus.cpp).
 #pragma once
 
 #include <optional>
@@ -33,6 +34,8 @@ struct Link {
     bool root = false;         // nothing in the run comes before it
     std::string element = {};  // of the plan at that place; empty: none
     std::vector<Loser> lost = {};  // to the event of that element, at the same instant
+    bool guessed =
+        false;  // of a real bus: no frame tells it, but a script has no other place for it
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;

@@ -212,7 +212,7 @@ Status Walk::event(const std::string& name) {
         frame(number);
         return Status::done();
     }
-    std::vector<std::string> known;
+    std::vector<std::string> known = causes_.events_seen();
     if (rerun_.session() != nullptr) {
         for (const aesl::GlobalEvent& one : rerun_.session()->common().events) {
             known.push_back(one.name);

@@ -23,13 +23,13 @@ bool is_timer(std::string_view event) {
     return event == "tick" || event.starts_with("timer");
 }
 
-std::string words_of(const std::vector<int16_t>& words) {
+}  // namespace
+
+std::string words_text(const std::vector<int16_t>& words) {
     std::string text;
     for (const int16_t word : words) text += (text.empty() ? "" : " ") + std::to_string(word);
     return text;
 }
-
-}  // namespace
 
 std::string value_text(const plan::Value& value) {
     switch (value.type()) {
@@ -83,18 +83,20 @@ std::string Walk::local_help(const sim::WitnessedNode& node, int event) const {
 void Walk::frame(uint32_t number) {
     const Causes::Frame* const one = causes_.frame(number);
     if (one == nullptr) return;
+    if (one->of_bus) return frame_of_bus_node(number, *one);
     if (one->node.robot == 0) return frame_of_plan(*one);
     const bool more = add({one->at,
                            fmt::format("the script of {} emitted {}", node_name(one->node),
                                        one->event.empty() ? "a message" : one->event),
-                           place_of(one->node, one->deed.pc), words_of(one->arguments)});
+                           place_of(one->node, one->deed.pc), words_text(one->arguments)});
     if (more) run(one->deed.run);
 }
 
 void Walk::frame_of_plan(const Causes::Frame& frame) {
     if (frame.by.empty()) {
         const char* const who = rerun_.about().verb == kStudioVerb ? "the studio" : "a host";
-        add({frame.at, fmt::format("{} sent {}", who, frame.event), "", words_of(frame.arguments)});
+        add({frame.at, fmt::format("{} sent {}", who, frame.event), "",
+             words_text(frame.arguments)});
         return;
     }
     const auto start = last_line(std::min(frame.line, lines().size()), [&](size_t i) {
@@ -104,7 +106,7 @@ void Walk::frame_of_plan(const Causes::Frame& frame) {
     if (!start) return frame_of_supervisor(frame);
     if (!add_element(frame.at,
                      fmt::format("the actor {} of the plan sent {}", frame.by, frame.event),
-                     lines()[*start].event.plan, frame.by, words_of(frame.arguments))) {
+                     lines()[*start].event.plan, frame.by, words_text(frame.arguments))) {
         return;
     }
     // It was being stopped, it had heard something, or that is how it begins.
@@ -130,7 +132,7 @@ void Walk::frame_of_supervisor(const Causes::Frame& frame) {
     });
     if (!add_element(frame.at,
                      fmt::format("the supervisor {} of the plan sent {}", frame.by, frame.event),
-                     its ? lines()[*its].event.plan : "", frame.by, words_of(frame.arguments))) {
+                     its ? lines()[*its].event.plan : "", frame.by, words_text(frame.arguments))) {
         return;
     }
     const uint32_t decided_by = its ? lines()[*its].event.frame : 0;
@@ -146,7 +148,7 @@ void Walk::run(uint32_t number) {
     const std::string event = by != nullptr ? by->event : "an event of a host";
     const bool more =
         add({one->at, fmt::format("{} heard {}", node_name(one->node), event),
-             place_of(one->node, one->pc), by != nullptr ? words_of(by->arguments) : ""});
+             place_of(one->node, one->pc), by != nullptr ? words_text(by->arguments) : ""});
     if (more) frame(one->frame);
 }
 
@@ -253,8 +255,8 @@ void Walk::raised(size_t index, const plan::EventRaised& raised) {
         add({event.at, "a person raised it in the debugger of the plan", "", ""});
         return;
     }
-    if (causes_.tied(index) && raised.target != kIgnore)
-        ties_.emplace_back(chain_.size() - 1, index);
+    const bool told = raised.target != kIgnore && rerun_.past_bus() == nullptr;
+    if (causes_.tied(index) && told) ties_.emplace_back(chain_.size() - 1, index);
     if (event.frame != 0) frame(event.frame);
 }
 

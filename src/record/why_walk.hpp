@@ -25,6 +25,7 @@ public:
         : causes_(causes), rerun_(causes.rerun()), places_(causes.rerun()) {}
 
     Result<Chain> answer(const Question& question) {
+        if (auto beyond = not_in_frames(question)) return *beyond;
         Status asked = Status::done();
         switch (question.about) {
             case About::Actor:
@@ -54,6 +55,7 @@ public:
 
 private:
     // ---- questions ----
+    std::optional<Error> not_in_frames(const Question& question) const;
     Status actor(const std::string& name);
     Status variable(const std::string& name);
     Status variable_of_node(const session::NodeState& node, const std::string& name);
@@ -76,6 +78,7 @@ private:
     void frame(uint32_t number);
     void frame_of_plan(const Causes::Frame& frame);
     void frame_of_supervisor(const Causes::Frame& frame);
+    void frame_of_bus_node(uint32_t number, const Causes::Frame& frame);
     void run(uint32_t number);
     void local_event(const Causes::HandlerRun& run);
     void call(uint32_t number);
@@ -137,5 +140,6 @@ private:
 
 // As a link tells it.
 std::string value_text(const plan::Value& value);
+std::string words_text(const std::vector<int16_t>& words);
 
 }  // namespace vagus::record

@@ -42,8 +42,8 @@ struct BusEvent {
     std::vector<int16_t> arguments;
     uint16_t from = 0;   // the node that emitted it; 0: a host, or the plan itself
     uint32_t frame = 0;  // number of the frame that brought it, where frames have one
-    // Of what the plan emits in virtual time: the element whose code it was, and the number of the
-    // frame that this code heard last. The name is the Graph's.
+    // Of what the plan emits: the element whose code it was, and the number of the frame that this
+    // code heard last; of a supervisor in real time no number. The name is the Graph's.
     std::string_view by = {};
     uint32_t cause = 0;
 };

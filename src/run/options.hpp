@@ -39,6 +39,8 @@ struct RunOptions {
     std::function<void(const plan::TraceEvent&)> on_trace = {};
     // What the plan emits, for a bus beyond this run; called on the deciding thread.
     std::function<void(const BusEvent&)> on_emit = {};
+    // In real time: what the run hears of the bus, as it is taken; called on the deciding thread.
+    std::function<void(const BusEvent&, Time)> on_hear = {};
     // Whether the bus can carry it; the Error is the failure of the code that emits it. Called on
     // the thread of that code. What supervisors emit as they stop goes out in any case.
     std::function<Status(const BusEvent&)> may_emit = {};

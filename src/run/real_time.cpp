@@ -241,7 +241,8 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
                                .path = machine_.path_at(command.level),
                                .of = command.supervisor,
                                .code = library_.make_supervisor(*command.supervisor->of),
-                               .context = WatchContext(options_, inbox_, numbers_.next()),
+                               .context = WatchContext(options_, inbox_, numbers_.next(),
+                                                       command.supervisor->name),
                                .started = now(),
                                .next = now(),
                                .checked_at = now(),
@@ -276,8 +277,9 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     auto code = std::make_shared<Code>();
     code->activation = command.activation;
     code->actor = library_.make_actor(*command.actor->of);
-    const LiveContext::Of of{command.activation, numbers_.next(), *code->actor,
-                             command.actor->of->outputs.size(), options_};
+    const LiveContext::Of of{command.activation, numbers_.next(),
+                             *code->actor,       command.actor->of->outputs.size(),
+                             options_,           command.actor->name};
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};
@@ -368,16 +370,16 @@ void RealTime::Engine::take(Heard& message) {
             watching.events.push_back(message.event);
         }
     }
-    if (!message.own && options_.debugger) options_.debugger->heard();
     if (message.own) return;  // code does not hear what it has said itself
+    if (options_.debugger) options_.debugger->heard();
+    if (options_.on_hear) options_.on_hear(message.event, now());
     for (const auto& [activation, code] : code_) code->context->hear(message.event);
 }
 
 void RealTime::Engine::take(Written& message) {
     if (machine_.over()) return;
     // A value that does not fit is the writer's to know: set() has checked it before.
-    const Status written = machine_.write_outside(message.slot, message.value, now());
-    (void)written.ok();
+    (void)machine_.write_outside(message.slot, message.value, now()).ok();
 }
 
 // ---- checks ----
@@ -539,9 +541,9 @@ Lateness RealTime::Engine::lateness() const {
     if (lateness_us_.empty()) return {};
     std::vector<uint32_t> sorted = lateness_us_;
     std::sort(sorted.begin(), sorted.end());
-    const auto at = [&sorted](double share) {
-        const auto index = static_cast<size_t>(share * static_cast<double>(sorted.size() - 1));
-        return Duration{sorted[index]};
+    const auto last = static_cast<double>(sorted.size() - 1);
+    const auto at = [&](double share) {
+        return Duration{sorted[static_cast<size_t>(share * last)]};
     };
     return {sorted.size(), at(0.5), at(0.99), at(1.0)};
 }

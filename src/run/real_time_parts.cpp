@@ -243,7 +243,7 @@ ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) 
     heard_ = early_.take(event);
     wait_for(lock, at_most, [this] { return heard_.has_value(); });
     waiting_ = false;
-    return {.stop = stop_, .event = std::move(heard_)};
+    return noted({.stop = stop_, .event = std::move(heard_)});
 }
 
 ActorContext::Woken LiveContext::wait_kept(Duration at_most) {
@@ -251,11 +251,11 @@ ActorContext::Woken LiveContext::wait_kept(Duration at_most) {
     if (told_) {
         const auto end = SteadyClock::now() + std::clamp(at_most, Duration{0}, kFar);
         wake_.wait_until(lock, end, [this] { return !kept_.empty(); });
-        return {.stop = false, .event = kept_.take()};
+        return noted({.stop = false, .event = kept_.take()});
     }
     wait_for(lock, at_most, [this] { return !kept_.empty(); });
     if (stop_) return {.stop = true};
-    return {.stop = false, .event = kept_.take()};
+    return noted({.stop = false, .event = kept_.take()});
 }
 
 // Until the time, `ready`, or Stop. By the run's clock, which is stopped while the run is paused:

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -166,6 +167,7 @@ public:
         Actor& actor;
         size_t outputs;
         const RunOptions& options;
+        std::string_view name;  // of the element
     };
     LiveContext(std::vector<plan::Value> in, const Of& of, Inbox& inbox, SplitMix64& random,
                 const RunClock& clock)
@@ -173,6 +175,7 @@ public:
           activation_(of.activation),
           actor_(of.actor),
           options_(of.options),
+          name_(of.name),
           inbox_(inbox),
           random_(random),
           clock_(clock) {}
@@ -183,6 +186,8 @@ public:
     void log(std::string text) override { inbox_.post(Logged{activation_, std::move(text)}); }
     void emit(BusEvent event) override {
         throw_if_refused(options_, event);
+        event.by = name_;
+        event.cause = heard_frame_;
         inbox_.post(Heard{std::move(event), true});
     }
     // The generator of a run, drawn from by one actor at a time (P14).
@@ -200,6 +205,11 @@ protected:
     Woken wait_kept(Duration at_most) override;
 
 private:
+    // What the code is given, in its thread.
+    Woken noted(Woken woken) {
+        if (woken.event) heard_frame_ = woken.event->frame;
+        return woken;
+    }
     void wait_for(std::unique_lock<std::mutex>& lock, Duration at_most,
                   const std::function<bool()>& ready);
     void stay_held(std::unique_lock<std::mutex>& lock);
@@ -207,9 +217,11 @@ private:
     const plan::ActivationId activation_;
     Actor& actor_;
     const RunOptions& options_;
+    const std::string_view name_;
     Inbox& inbox_;
     SplitMix64& random_;
     const RunClock& clock_;
+    uint32_t heard_frame_ = 0;  // number of the frame that the code heard last; its thread's
     std::mutex mutex_;
     std::condition_variable wake_;
     bool stop_ = false;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,13 @@ namespace vagus::run {
 // Used on the deciding thread only.
 class WatchContext final : public SupervisorContext {
 public:
-    // Both are borrowed for the run.
-    WatchContext(const RunOptions& options, Inbox& inbox, uint64_t number)
-        : options_(&options), inbox_(&inbox), number_(number) {}
+    // All are borrowed for the run.
+    WatchContext(const RunOptions& options, Inbox& inbox, uint64_t number, std::string_view name)
+        : options_(&options), inbox_(&inbox), number_(number), name_(name) {}
 
     void emit(BusEvent event) override {
         if (!over_) throw_if_refused(*options_, event);
+        event.by = name_;
         inbox_->post(Heard{std::move(event), true});
     }
     uint64_t number() const override { return number_; }
@@ -34,6 +36,7 @@ private:
     const RunOptions* options_;
     Inbox* inbox_;
     uint64_t number_;
+    std::string_view name_;
     bool over_ = false;
 };
 

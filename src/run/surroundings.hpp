@@ -11,9 +11,9 @@
 //     } metronome;
 //     options.surroundings = &metronome;               // then VirtualTime
 //
-// All calls come on the deciding thread: next() at any time; begin() when the run has come to that
-// instant; then what the plan does at it and emits; then end(), before the clock moves on or the
-// run is over.
+// All calls come on the deciding thread: next() and late() at any time; begin() when the run has
+// come to that instant; then what the plan does at it and emits; then end(), before the clock moves
+// on or the run is over.
 #pragma once
 
 #include <vector>
@@ -29,6 +29,8 @@ public:
 
     // The next instant that begin() has not been called for; each is later than the one before.
     virtual Time next() const = 0;
+    // Something else of the run is due then: when it is taken, then or later.
+    virtual Time late(Time due) { return due; }
     // Does what comes before the plan at the instant next(); gives what the plan hears at it.
     virtual std::vector<BusEvent> begin() = 0;
     // While a debugger holds the run, between begin() and end(): what has arrived meanwhile, which

@@ -206,7 +206,7 @@ void VirtualTime::step() {
     meet_surroundings();
     if (abort_asked_.exchange(false)) {
         machine_.abort(now_);
-    } else if (!take_first_due() && !advance()) {
+    } else if (!waits_for_surroundings() && !take_first_due() && !advance()) {
         timed_out_ = true;
         machine_.abort(now_);
     }
@@ -495,62 +495,41 @@ void VirtualTime::meet_surroundings() {
     }
 }
 
-// What of it is heard now: all, unless a debugger holds it; what it has let go comes first.
-std::vector<BusEvent> VirtualTime::pass(std::vector<BusEvent> arrived) {
-    std::vector<BusEvent> heard = std::exchange(passing_, {});
-    if (gate_closed_) {
-        hold(std::move(arrived));
-    } else {
-        std::move(arrived.begin(), arrived.end(), std::back_inserter(heard));
-    }
-    return heard;
-}
-
-void VirtualTime::hold(std::vector<BusEvent> arrived) {
-    for (BusEvent& event : arrived) {
-        held_.add({.number = ++last_held_, .after = {}, .event = std::move(event)});
-    }
-}
-
-void VirtualTime::close_gate() {
-    gate_closed_ = true;
-}
-
-void VirtualTime::open_gate() {
-    gate_closed_ = false;
-    for (HeldEvent& one : held_.take_all()) passing_.push_back(std::move(one.event));
-}
-
-// The clock is stopped, and yet something may have arrived: from nodes at this instant, from others
-// on the bus since.
-HeldNow VirtualTime::held() {
-    if (gate_closed_ && options_.surroundings) hold(options_.surroundings->arrived());
-    return held_.now();
-}
-
-bool VirtualTime::let_go(uint64_t number) {
-    auto one = held_.take(number);
-    if (one) passing_.push_back(std::move(one->event));
-    return one.has_value();
-}
-
 void VirtualTime::leave_surroundings() {
     if (std::exchange(met_, false)) options_.surroundings->end();
 }
 
 // ---- time ----
 
-std::optional<Time> VirtualTime::next_due() const {
+Time VirtualTime::own_due() const {
+    if (begin_due_ || over_due_) return now_;
     Time next = kNever;
     for (const auto& watching : watching_) {
-        if (may_check(*watching)) next = std::min(next, watching->next);
+        if (!may_check(*watching)) continue;
+        next = std::min(next, watching->events.empty() ? watching->next : now_);
     }
     if (code_) {
         next = std::min(next, code_->wake);
         if (code_->told) next = std::min(next, code_->grace_ends);
     }
+    return next;
+}
+
+std::optional<Time> VirtualTime::next_due() const {
+    Time next = own_due();
     if (options_.surroundings) next = std::min(next, options_.surroundings->next());
     return next == kNever ? std::nullopt : std::optional(next);
+}
+
+// What is due now is taken later, behind something of the surroundings: the clock moves on to that.
+bool VirtualTime::waits_for_surroundings() {
+    if (!options_.surroundings) return false;
+    const Time at = options_.surroundings->late(now_);
+    if (at <= now_ || own_due() > now_) return false;
+    leave_surroundings();
+    machine_.time_passed();
+    now_ = at;
+    return true;
 }
 
 // Jumps to the next thing due. False: max_time comes first, or nothing can ever fall due; then the
@@ -570,7 +549,7 @@ bool VirtualTime::advance() {
         options_.debugger->reach_instant(now_);
         return true;
     }
-    now_ = *next;
+    now_ = options_.surroundings ? options_.surroundings->late(*next) : *next;
     return true;
 }
 
@@ -578,6 +557,11 @@ bool VirtualTime::pause_comes_first(Time next) const {
     if (!options_.debugger) return false;
     const std::optional<Time> instant = options_.debugger->instant();
     return instant && *instant <= next;
+}
+
+void VirtualTime::fail(std::string_view why) {
+    machine_.fail_run(why, now_);
+    obey();
 }
 
 // Listeners that hear of these writes may ask for more: those come next time.

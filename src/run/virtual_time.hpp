@@ -14,9 +14,11 @@
 //     for (VirtualTime* run : runs) tell(run->finish());
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -50,6 +52,14 @@ public:
     // Writes a variable of the outermost plan as soon as what is being taken is done (P29); a value
     // that does not fit its type is dropped. For on_trace and for actors' code.
     void set(int slot, plan::Value value) { sets_asked_.emplace_back(slot, std::move(value)); }
+
+    // ---- for a run that follows the clock of another: from on_trace and from Surroundings ----
+    // What was decided took until then.
+    void move_clock(Time to) { now_ = std::max(now_, to); }
+    // From now on tokens count from this one.
+    void move_tokens(uint16_t token) { numbers_.move_to(token); }
+    // Ends the run as abort() does, but with the result Error, at once.
+    void fail(std::string_view why);
 
     // From now on what is random in the code of actors is drawn from that seed. As set().
     void reseed(uint64_t seed) { random_ = SplitMix64(seed); }
@@ -85,7 +95,9 @@ private:
     std::vector<BusEvent> pass(std::vector<BusEvent> arrived);
     void hold(std::vector<BusEvent> arrived);
     void leave_surroundings();
+    Time own_due() const;
     std::optional<Time> next_due() const;
+    bool waits_for_surroundings();
     bool advance();
     bool pause_comes_first(Time next) const;
     void let_debug();

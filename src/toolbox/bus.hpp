@@ -9,11 +9,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vagus::toolbox {
 
@@ -33,16 +35,31 @@ inline std::string node_runs(std::string_view node) {
 
 class BusNodes {
 public:
+    enum class Change : uint8_t { Appeared, Left, Stopped, Runs };
+    using Listener = std::function<void(const std::string& node, Change change)>;
+    // Is told at once how it is, and then of each change, on the thread that makes it; it must not
+    // call these nodes. Empty: nobody is.
+    void listen(Listener listener) {
+        const std::lock_guard lock(mutex_);
+        listener_ = std::move(listener);
+        for (const auto& [name, count] : count_) {
+            for (int i = 0; i < count; ++i) tell(name, Change::Appeared);
+        }
+        for (const std::string& name : stopped_) tell(name, Change::Stopped);
+    }
+
     // Once for each node; several can have one name.
     void appeared(const std::string& name) {
         const std::lock_guard lock(mutex_);
         ++count_[name];
+        tell(name, Change::Appeared);
     }
     // True if it was the last of that name.
     bool left(const std::string& name) {
         const std::lock_guard lock(mutex_);
         const auto found = count_.find(name);
         if (found == count_.end()) return false;
+        tell(name, Change::Left);
         if (--found->second > 0) return false;
         count_.erase(found);
         return true;
@@ -51,11 +68,11 @@ public:
     // is_stopped(): what was told before is not told again.
     void stopped(const std::string& name) {
         const std::lock_guard lock(mutex_);
-        stopped_.insert(name);
+        if (stopped_.insert(name).second) tell(name, Change::Stopped);
     }
     void runs(const std::string& name) {
         const std::lock_guard lock(mutex_);
-        stopped_.erase(name);
+        if (stopped_.erase(name) > 0) tell(name, Change::Runs);
     }
     bool is_stopped(std::string_view name) const {
         const std::lock_guard lock(mutex_);
@@ -74,7 +91,12 @@ public:
     }
 
 private:
+    void tell(const std::string& name, Change change) const {
+        if (listener_) listener_(name, change);
+    }
+
     mutable std::mutex mutex_;  // guards what follows
+    Listener listener_;
     std::map<std::string, int, std::less<>> count_;
     std::set<std::string, std::less<>> stopped_;
 };

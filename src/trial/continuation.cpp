@@ -25,6 +25,11 @@ Error at_condition(std::string_view condition, const Error& error) {
 
 Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
     TRY(record::check_one_bus(rerun.about(), reader.name(), "--turning-point"));
+    if (rerun.about().is_of_bus()) {
+        return cannot(reader,
+                      "is of a real bus, whose nodes cannot be continued from an instant; record a "
+                      "run beside a world, with `vagus plan run --world`");
+    }
     if (rerun.session() == nullptr) {
         return cannot(reader,
                       "is of a plan without a world, which cannot be continued from an instant; "

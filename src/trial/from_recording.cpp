@@ -198,6 +198,12 @@ Result<Draft> draft_test(const mcap::Reader& reader) {
                                         ": is the recording of a world without a plan; a test is "
                                         "of a plan: record with `vagus plan run … --record FILE`"};
     }
+    if (recorded.run.is_of_bus()) {
+        return Error{Code::Refused, reader.name() +
+                                        ": is a recording of a real bus, and a test runs in a "
+                                        "world: record the plan with `vagus plan run … --world "
+                                        "WORLD --record FILE`"};
+    }
     // It goes on, or its time or a person ended it: a test of what was until then.
     const bool timed_out = told.ends.empty() || (told.ends == "Interrupted" && told.by.empty());
     if (told.came.empty()) {

@@ -1,6 +1,6 @@
 // vagus net TARGET VERB …: looks at the nodes of a live network and works with them. Here is the
-// command line; what the verbs do is in nodes.cpp, variables.cpp, load.cpp, break.cpp and
-// show.cpp.
+// command line; what the verbs do is in nodes.cpp, variables.cpp, load.cpp, break.cpp, record.cpp
+// and show.cpp.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <functional>
@@ -239,6 +239,25 @@ void add_load(CLI::App& net, const SharedCall& call, int& exit_code) {
     verb->callback([call, &exit_code] { exit_code = load(*call); });
 }
 
+int record(const Call& call) {
+    const FilesRead files;  // from here on: the project
+    return run(call,
+               [&files](NetSession& s, const Call& c) { return net_record(s, c.file, files); });
+}
+
+void add_record(CLI::App& net, const SharedCall& call, int& exit_code) {
+    CLI::App* verb = add_verb(
+        net, "record", "records all that goes over the bus, for vagus why and vagus compare",
+        "Ends with Ctrl-C, or after --wait seconds. Exit code 1 if the connection is lost, or the "
+        "file cannot\nbe written; what was recorded by then is in it. Nodes are asked who they "
+        "are, "
+        "and for their\nvariables: one node each 0.1 s, each once a second at most. With --project "
+        "events and variables\nof scripts have their names.\n"
+        "Example:\n  vagus net tcp:127.0.0.1:33333 record monday.mcap --project explore.aesl");
+    takes_file(*verb->add_option("FILE", call->file, "the recording")->required(), {".mcap"});
+    verb->callback([call, &exit_code] { exit_code = record(*call); });
+}
+
 // "FILE:LINE", then "if" and a condition in any number of words. A sentence if it is wrong, else
 // nothing.
 std::string read_place(const std::vector<std::string>& words, BreakOptions& at) {
@@ -311,6 +330,7 @@ void add_net(CLI::App& app, int& exit_code) {
     add_control_verbs(*net, call, exit_code);
     add_load(*net, call, exit_code);
     add_break(*net, call, exit_code);
+    add_record(*net, call, exit_code);
 }
 
 }  // namespace vagus::cli

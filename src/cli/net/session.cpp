@@ -107,10 +107,14 @@ Time NetSession::now() const {
 
 Status NetSession::turn(Time deadline) {
     network_.tick(now());
-    for (const wire::Frame& frame : network_.take_frames()) bus_->hub.receive(bus_->own, frame);
+    for (const wire::Frame& frame : network_.take_frames()) {
+        if (told_of_frame_) told_of_frame_(frame);
+        bus_->hub.receive(bus_->own, frame);
+    }
     bus_->note(bus_->net.poll(std::min(deadline, network_.next_tick())));
     wire::Frame frame;
     while (bus_->hub.take(bus_->own, frame)) {
+        if (told_of_frame_) told_of_frame_(frame);
         if (!hears_user_events_ && wire::is_user_event(frame.type)) continue;
         network_.receive(now(), frame);
     }

@@ -57,6 +57,10 @@ public:
     // ---- waiting ----
     // User events are thrown away as they come, unless somebody wants them: a flood costs little.
     void hear_user_events() { hears_user_events_ = true; }
+    // Is told of each frame, as it comes or goes, in the order of the bus.
+    void on_frame(std::function<void(const wire::Frame&)> told) {
+        told_of_frame_ = std::move(told);
+    }
     Time now() const;
     // Sends what waits, takes what came, at the latest until the deadline. What happened is added
     // to events.
@@ -117,6 +121,7 @@ private:
     std::map<debug::NodeId, int> scripts_;  // index into the project's scripts
     std::deque<Compiled> compiled_;         // their places stay
     bool hears_user_events_ = false;
+    std::function<void(const wire::Frame&)> told_of_frame_;
 };
 
 // How it ended; nothing if it worked.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file.hpp"
 #include "cli/net/session.hpp"
 #include "debug/control.hpp"
 
@@ -49,6 +50,11 @@ Verdict net_watch(NetSession& session, const std::string& node,
                   const std::vector<std::string>& variables);
 // All that happens, or what happens on these nodes.
 Verdict net_log(NetSession& session, const std::vector<std::string>& nodes);
+
+// ---- record.cpp ----
+// All that goes over the bus, into a file, until Ctrl-C or the end of --wait. `files` is what was
+// read so far.
+Verdict net_record(NetSession& session, const std::string& file, const FilesRead& files);
 
 // ---- rest.cpp ----
 // Stops scripts, makes nodes safe, reads back. The exit code tells whether all are at rest.

@@ -62,15 +62,10 @@ namespace {
 Status check_recording(const PlanRunOptions& options) {
     const embed::RunWords& words = options.words;
     const std::string file = "--record " + options.record + ": ";
-    if (!words.bus.empty()) {
-        return Error{Code::Refused, file +
-                                        "a run on a real bus is not recorded; record one "
-                                        "beside a --world"};
-    }
     if (!words.listen.empty()) {
         return Error{Code::Refused, file + "not together with --listen; leave one of them out"};
     }
-    if (words.world.empty() && words.clock != "virtual") {
+    if (words.world.empty() && words.bus.empty() && words.clock != "virtual") {
         return Error{Code::Refused, file +
                                         "a run in real time cannot be run again; give it a "
                                         "--world, or --clock virtual"};
@@ -84,7 +79,10 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     TRY(check_recording(options));
     const embed::RunWords& words = options.words;
     record::RunFile about;
+    if (!words.bus.empty()) about.kind = record::kBusKind;
     about.verb = "plan run";
+    about.bus = words.bus;
+    about.project = words.project;
     about.plan = options.file;
     about.world = words.world;
     about.toolboxes = words.toolboxes;

@@ -207,8 +207,10 @@ struct Compared {
     bool to_the_first = true;  // a difference ends the run
 };
 
-Compared compared(const record::RerunOptions& how, bool has_plan) {
+Compared compared(const record::RerunOptions& how, const record::Rerun& rerun) {
     Compared made;
+    const bool has_plan = rerun.plan() != nullptr;
+    if (rerun.about().is_of_bus()) made.topics.insert(std::string(record::kTraceTopic));
     if (how.until) made.until = *how.until;
     if (how.from) {
         made.until = *how.from - Duration(1);
@@ -218,6 +220,24 @@ Compared compared(const record::RerunOptions& how, bool has_plan) {
         if (has_plan) made.topics.insert(std::string(record::kTraceTopic));
     }
     return made;
+}
+
+// Of a real bus only the plan can do something again.
+Status check_bus(const ReplayOptions& options, const record::Rerun& rerun) {
+    if (!rerun.about().is_of_bus()) return Status::done();
+    if (rerun.plan() == nullptr) {
+        return Error{Code::Refused,
+                     options.file +
+                         ": is a recording of a real bus without a plan, so nothing can decide "
+                         "again; ask it by `vagus why` or `vagus compare`, or record a plan with "
+                         "`vagus plan run PLAN --bus TARGET --record FILE`"};
+    }
+    if (!options.record.empty()) {
+        return Error{Code::Refused, "--record " + options.record + ": " + options.file +
+                                        " is a recording of a real bus, whose nodes cannot be run "
+                                        "again; what the plan decides now is told, not recorded"};
+    }
+    return Status::done();
 }
 
 // Looks at the run while it goes on. The Error is of a log point whose place there is not.
@@ -284,7 +304,7 @@ int tell_result(const ReplayOptions& options, const mcap::Reader& reader,
 // Runs it again, and gives the exit code.
 int run_again(const ReplayOptions& options, const mcap::Reader& reader,
               const record::RerunOptions& how, record::Rerun& rerun, record::LogPoints& points) {
-    const Compared what = compared(how, rerun.plan() != nullptr);
+    const Compared what = compared(how, rerun);
     record::CompareTape tape(reader, what.topics, what.until);
     Looker looker(options, rerun, points,
                   [&] { return what.to_the_first && tape.difference().has_value(); });
@@ -316,6 +336,8 @@ int replay(const ReplayOptions& options) {
     if (!how.ok()) return complain(how.error(), kExitUsage);
     const auto rerun = record::Rerun::open(reader.value(), how.value());
     if (!rerun.ok()) return complain(rerun.error(), kExitUsage);
+    const Status asked = check_bus(options, *rerun.value());
+    if (!asked.ok()) return complain(asked.error(), kExitUsage);
     const auto points = log_points(options, *rerun.value());
     if (!points.ok()) return complain(points.error(), kExitUsage);
     if (!reader.value().is_complete()) {

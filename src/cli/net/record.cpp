@@ -1,0 +1,130 @@
+// vagus net: record.
+#include <fmt/format.h>
+
+#include "base/seconds.hpp"
+#include "cli/net/verbs.hpp"
+#include "cli/output.hpp"
+#include "debug/names.hpp"
+#include "record/bus_recorder.hpp"
+#include "record/recorder.hpp"
+
+namespace vagus::cli {
+
+namespace {
+
+// So that little is asked of a bus: at most one node each kReadEvery, and each at most once in
+// kReadAgain.
+constexpr Duration kReadEvery = std::chrono::milliseconds(100);
+constexpr Duration kReadAgain = std::chrono::seconds(1);
+
+// Asks nodes for their variables, one after the other; the answers are frames as any.
+class Reading {
+public:
+    explicit Reading(NetSession& session) : session_(session) {}
+
+    void ask(Time now) {
+        if (now < next_) return;
+        next_ = now + kReadEvery;
+        const std::vector<debug::NodeId> ids = session_.connected();
+        const auto due = [&](debug::NodeId id) {
+            return !asked_.contains(id) || asked_[id] + kReadAgain <= now;
+        };
+        auto first = std::find_if(ids.begin(), ids.end(),
+                                  [&](debug::NodeId id) { return id > last_ && due(id); });
+        if (first == ids.end()) first = std::find_if(ids.begin(), ids.end(), due);
+        if (first == ids.end()) return;
+        last_ = *first;
+        asked_[last_] = now;
+        uint16_t words = 0;
+        for (const aesl::VariablePlace& one : debug::variables_of(session_.view(last_))) {
+            words = std::max(words, static_cast<uint16_t>(one.address + one.size));
+        }
+        if (words == 0) return;
+        (void)session_.network().get(last_, {.name = "", .address = 0, .count = words}).ok();
+    }
+    Time next() const { return next_; }
+
+private:
+    NetSession& session_;
+    std::map<debug::NodeId, Time> asked_;
+    debug::NodeId last_ = 0;
+    Time next_{};
+};
+
+// A recording of the bus from now on.
+class BusFile {
+public:
+    BusFile(NetSession& session, std::unique_ptr<record::FileTape> tape, std::string_view run)
+        : session_(session), tape_(std::move(tape)), recorder_(*tape_, run), bus_(*tape_) {
+        bus_.begin(session.network().common());
+        began_ = session.now();
+        session.on_frame([this](const wire::Frame& frame) {
+            ++frames_;
+            (void)bus_.frame(at(), {.frame = frame});
+        });
+    }
+    ~BusFile() { session_.on_frame({}); }
+    BusFile(const BusFile&) = delete;
+    BusFile& operator=(const BusFile&) = delete;
+
+    void described(debug::NodeId id) { bus_.described(at(), session_.view(id)); }
+    Time at() const { return session_.now() - began_; }
+    uint64_t frames() const { return frames_; }
+    uint64_t dropped() const { return tape_->dropped(); }
+    Status state() const { return tape_->state(); }
+    Status end() {
+        recorder_.input_at(at(), record::RecordingEnds{});
+        return tape_->end();
+    }
+
+private:
+    NetSession& session_;
+    std::unique_ptr<record::FileTape> tape_;
+    record::Recorder recorder_;
+    record::BusRecorder bus_;
+    Time began_{};
+    uint64_t frames_ = 0;
+};
+
+// Until it is over; the Error is of the bus, or of the file.
+Status follow(NetSession& session, BusFile& file) {
+    const Time end = session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
+    Reading reading(session);
+    while (!session.interrupted() && session.now() < end) {
+        reading.ask(session.now());
+        TRY(session.turn(std::min(end, reading.next())));
+        for (const debug::Event& event : session.take_events()) {
+            if (!std::holds_alternative<debug::NodeDescribed>(event.what)) continue;
+            session.adopt_scripts();
+            file.described(event.node);
+        }
+        TRY(file.state());
+    }
+    return Status::done();
+}
+
+}  // namespace
+
+Verdict net_record(NetSession& session, const std::string& path, const FilesRead& files) {
+    record::RunFile about;
+    about.kind = record::kBusKind;
+    about.verb = record::kNetVerb;
+    about.bus = session.options().target;
+    about.project = session.options().project_file;
+    const record::PackedFiles packed = record::pack(files.all());
+    auto tape = TRY(record::start_tape(path, about, packed, record::Pace::NeverWaits));
+    BusFile file(session, std::move(tape), record::format_run(about));
+    const Status followed = follow(session, file);
+    const Time at = file.at();
+    const Status written = file.end();
+    if (file.dropped() > 0) {
+        complain(fmt::format("{}: the disk was too slow, {} samples of variables were left out",
+                             path, file.dropped()));
+    }
+    say(fmt::format("{}: {} s, {} frames\n", path, seconds_text(at), file.frames()));
+    TRY(followed);
+    TRY(written);
+    return kExitDone;
+}
+
+}  // namespace vagus::cli

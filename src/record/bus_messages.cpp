@@ -1,0 +1,98 @@
+#include "record/bus_messages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/json.hpp"
+#include "base/seconds.hpp"
+#include "mcap/records.hpp"
+#include "wire/bytes.hpp"
+
+namespace vagus::record {
+
+std::string format_frame(const RecordedFrame& recorded) {
+    std::array<uint8_t, wire::kFrameMax> bytes;
+    const uint16_t size = wire::encode(recorded.frame, bytes.data());
+    std::string data;
+    mcap::Put put(data);
+    put.u32(recorded.number).u32(recorded.cause).u16(recorded.frame.source);
+    put.bytes({reinterpret_cast<const char*>(bytes.data()), size});
+    return data;
+}
+
+std::optional<RecordedFrame> read_frame(std::string_view data) {
+    mcap::Take take(data);
+    RecordedFrame recorded{.number = take.u32(), .cause = take.u32()};
+    (void)take.u16();  // the sender, which is in the frame
+    const std::string_view bytes = take.rest();
+    if (take.bad() || bytes.empty() || bytes.size() > wire::kFrameMax) return std::nullopt;
+    wire::FrameReader reader;
+    const auto size = static_cast<uint16_t>(bytes.size());
+    const auto* const begin = reinterpret_cast<const uint8_t*>(bytes.data());
+    if (reader.feed(begin, size) != size || !reader.complete()) return std::nullopt;
+    recorded.frame = reader.frame();
+    return recorded;
+}
+
+std::string event_name(const aesl::CommonDefinitions& common, const wire::Frame& frame) {
+    return frame.type < common.events.size() ? common.events[frame.type].name
+                                             : std::to_string(frame.type);
+}
+
+std::vector<int16_t> words_of(const wire::Frame& frame) {
+    std::vector<int16_t> words;
+    wire::Reader reader(frame.payload, frame.size);
+    while (reader.left() >= 2) words.push_back(reader.i16());
+    return words;
+}
+
+std::string format_event(const RecordedEvent& event) {
+    const std::string by = event.by.empty() ? "" : ",\"by\":" + json_quote(event.by);
+    return fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}{}}})",
+                       seconds_text(event.at), event.frame, event.node, json_quote(event.name),
+                       words_json(event.arguments), by);
+}
+
+std::string words_json(std::span<const int16_t> words) {
+    std::string text = "[";
+    for (size_t i = 0; i < words.size(); ++i) {
+        text += fmt::format("{}{}", i > 0 ? "," : "", words[i]);
+    }
+    return text + "]";
+}
+
+namespace {
+
+bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
+    return variable.size > 0 && size_t{variable.address} + variable.size <= words.size();
+}
+
+}  // namespace
+
+RecordedVariables changed_variables(const RecordedVariables& variables,
+                                    std::span<const int16_t> before, std::span<const int16_t> now) {
+    RecordedVariables changed;
+    for (const RecordedVariable& one : variables) {
+        if (!is_in(one, before) || !is_in(one, now)) continue;
+        const bool same = std::ranges::equal(before.subspan(one.address, one.size),
+                                             now.subspan(one.address, one.size));
+        if (!same) changed.push_back(one);
+    }
+    return changed;
+}
+
+std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
+                             bool all, Time at) {
+    std::string set;
+    for (const RecordedVariable& one : variables) {
+        if (!is_in(one, now)) continue;
+        const std::span<const int16_t> words = now.subspan(one.address, one.size);
+        set += (set.empty() ? "" : ",") + json_quote(one.name) + ":";
+        set += one.size == 1 ? std::to_string(words.front()) : words_json(words);
+    }
+    return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
+}
+
+}  // namespace vagus::record

@@ -1,0 +1,60 @@
+// How a frame, an event and the variables of a node are written in a recording, and read again.
+//
+//     tape.put(frames, at, format_frame({.number = 7, .frame = frame}));
+//     const auto recorded = read_frame(message.data);             // nothing: it is none
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aesl/target.hpp"
+#include "base/time.hpp"
+#include "wire/frame.hpp"
+
+namespace vagus::record {
+
+struct RecordedFrame {
+    uint32_t number = 0;
+    uint32_t cause = 0;  // the frame that it followed from; 0: none, or nobody knows
+    wire::Frame frame = {};
+};
+
+std::string format_frame(const RecordedFrame& recorded);
+std::optional<RecordedFrame> read_frame(std::string_view data);
+
+// The name of a user event; its number, if none of the definitions is its.
+std::string event_name(const aesl::CommonDefinitions& common, const wire::Frame& frame);
+// Its arguments.
+std::vector<int16_t> words_of(const wire::Frame& frame);
+
+struct RecordedEvent {
+    Time at{};
+    uint32_t frame = 0;  // its number
+    uint16_t node = 0;
+    std::string name = {};
+    std::vector<int16_t> arguments = {};
+    std::string by = {};  // of a plan on a real bus: the element whose code emitted it
+};
+std::string format_event(const RecordedEvent& event);
+
+// "[1,-2]"
+std::string words_json(std::span<const int16_t> words);
+
+struct RecordedVariable {
+    std::string name;
+    uint16_t address = 0;
+    uint16_t size = 0;
+};
+using RecordedVariables = std::vector<RecordedVariable>;
+// Those that are not in `now` as they were before.
+RecordedVariables changed_variables(const RecordedVariables& variables,
+                                    std::span<const int16_t> before, std::span<const int16_t> now);
+// `all`: they are all that the node has.
+std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
+                             bool all, Time at);
+
+}  // namespace vagus::record

@@ -1,0 +1,282 @@
+#include "record/past_bus.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/json.hpp"
+#include "record/compare_tape.hpp"
+#include "record/topics.hpp"
+#include "wire/protocol.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+std::string text_in(const JsonValue& from, std::string_view key) {
+    const JsonValue* const value = from.find(key);
+    return value != nullptr && value->kind == JsonKind::String ? value->text : "";
+}
+
+uint32_t number_in(const JsonValue& from, std::string_view key) {
+    const JsonValue* const value = from.find(key);
+    const bool there = value != nullptr && value->kind == JsonKind::Int;
+    return there ? static_cast<uint32_t>(value->integer) : 0;
+}
+
+// A line without what hangs on the clock: when it was, and how long a stop took.
+std::string without_times(const std::string& line) {
+    auto json = read_json(line);
+    auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree == nullptr) return line;
+    std::erase_if(tree->members, [](const JsonMember& member) {
+        return member.key == "t" || member.key == "stop_us";
+    });
+    return json_line(*tree);
+}
+
+bool is_near(Time a, Time b) {
+    return (a > b ? a - b : b - a) <= kInStepWithin;
+}
+
+}  // namespace
+
+// ---- reading ----
+
+Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl::Project project,
+                                               Time until) {
+    auto past = std::make_unique<PastBus>();
+    past->project_ = std::move(project);
+    mcap::Cursor cursor(reader);
+    while (const auto message = cursor.next()) {
+        const mcap::Channel* const channel = reader.channel(message->channel);
+        if (channel == nullptr) continue;
+        const Time at = time_of(message->log_time);
+        if (channel->topic == kTraceTopic) {
+            past->see_trace(at, message->data);
+        } else if (channel->topic == kInputTopic) {
+            TRY(past->see_input(at, message->data, reader.name()));
+        } else if (channel->topic == kFramesTopic && at <= until) {
+            past->see_frame(at, message->data);
+        } else if (channel->topic == kEventsTopic && at <= until) {
+            past->see_event(message->data);
+        } else if (channel->topic == kNodesTopic) {
+            past->see_node(message->data);
+        }
+    }
+    return past;
+}
+
+void PastBus::see_trace(Time at, std::string_view text) {
+    const auto json = read_json(text);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree != nullptr && text_in(*tree, "kind") == "late") {
+        late_[lines_.size()].push_back({at, std::string(text)});
+        return;
+    }
+    lines_.push_back({at, ++places_, std::string(text)});
+}
+
+Status PastBus::see_input(Time at, std::string_view text, const std::string& name) {
+    Input input = TRY(read_input(text, at, name));
+    if (const auto* const aborted = std::get_if<Aborted>(&input.what)) ended_by_ = aborted->by;
+    if (!std::holds_alternative<RecordingEnds>(input.what)) {
+        items_.push_back({at, ++places_, std::move(input.what)});
+    }
+    return Status::done();
+}
+
+void PastBus::see_frame(Time at, std::string_view data) {
+    const auto recorded = read_frame(data);
+    if (!recorded || !wire::is_user_event(recorded->frame.type)) return;
+    events_[recorded->number] = {.event = {.at = at,
+                                           .frame = recorded->number,
+                                           .node = recorded->frame.source,
+                                           .name = event_name(project_.common, recorded->frame),
+                                           .arguments = words_of(recorded->frame)},
+                                 .cause = recorded->cause,
+                                 .lines = lines_.size()};
+}
+
+// Tells who in the plan sent it.
+void PastBus::see_event(std::string_view text) {
+    if (text.find("\"by\":") == std::string_view::npos) return;
+    const auto json = read_json(text);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree == nullptr) return;
+    const auto found = events_.find(number_in(*tree, "frame"));
+    if (found == events_.end()) return;
+    found->second.event.by = text_in(*tree, "by");
+    emissions_.push_back({++places_, found->first});
+}
+
+void PastBus::see_node(std::string_view text) {
+    const auto json = read_json(text);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree == nullptr) return;
+    names_[static_cast<uint16_t>(number_in(*tree, "node"))] = text_in(*tree, "name");
+}
+
+std::string PastBus::name_of(uint16_t node) const {
+    const auto found = names_.find(node);
+    return found != names_.end() ? found->second : "node " + std::to_string(node);
+}
+
+const aesl::Script* PastBus::script_of(uint16_t node) const {
+    std::vector<aesl::NodeName> nodes;
+    for (const auto& [id, name] : names_) nodes.push_back({name, id});
+    const std::vector<int> scripts = aesl::scripts_for(project_, nodes);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].id != node || scripts[i] < 0) continue;
+        return &project_.scripts[static_cast<size_t>(scripts[i])];
+    }
+    return nullptr;
+}
+
+// ---- the run ----
+
+void PastBus::join(run::VirtualTime& run, toolbox::BusNodes& nodes) {
+    run_ = &run;
+    nodes_ = &nodes;
+    std::vector<run::BusEvent> too_early;
+    while (item_ < items_.size() && comes_before_line(items_[item_])) {
+        apply(items_[item_++], too_early);
+    }
+}
+
+const PastBus::Line* PastBus::next_line() const {
+    return parted_ || line_ >= lines_.size() ? nullptr : &lines_[line_];
+}
+
+bool PastBus::comes_before_line(const Item& item) const {
+    const Line* const line = next_line();
+    return line != nullptr && item.place < line->place;
+}
+
+// And before what the plan sent, which its code has yet to send.
+bool PastBus::comes_before_all(const Item& item) const {
+    const bool sends_first =
+        emission_ < emissions_.size() && emissions_[emission_].place < item.place;
+    return comes_before_line(item) && !sends_first;
+}
+
+// What it sends otherwise than it did has no place here.
+void PastBus::emit(Time, const run::BusEvent& event) {
+    if (emission_ >= emissions_.size()) return;
+    const bool is_it = events_.at(emissions_[emission_].frame).event.name == event.name;
+    emission_ = is_it ? emission_ + 1 : emissions_.size();
+}
+
+Time PastBus::next() const {
+    if (item_ >= items_.size()) return run::kNever;
+    const Item& item = items_[item_];
+    Time at = item.at;
+    const Line* const line = next_line();
+    if (line != nullptr && !comes_before_line(item)) at = std::max(at, line->at + Duration(1));
+    return std::max(at, last_ + Duration(1));
+}
+
+// A little is waited for what was heard before the next decision.
+Time PastBus::late(Time due) {
+    const Time heard = next();
+    const Line* const line = next_line();
+    const bool close = due < heard && heard - due <= kOrderWithin && line != nullptr &&
+                       line->at - due <= kOrderWithin;
+    return close && comes_before_all(items_[item_]) ? heard : due;
+}
+
+// With what was heard last, before the plan decided.
+bool PastBus::comes_now(const Item& item) const {
+    const Line* const line = next_line();
+    if (line == nullptr) return item.at <= last_;
+    if (!comes_before_all(item)) return false;
+    return item.at <= last_ ||
+           (item.at - last_ <= kOrderWithin && line->at - last_ <= kOrderWithin);
+}
+
+std::vector<run::BusEvent> PastBus::begin() {
+    last_ = next();
+    std::vector<run::BusEvent> heard;
+    do {
+        apply(items_[item_++], heard);
+    } while (item_ < items_.size() && comes_now(items_[item_]));
+    return heard;
+}
+
+void PastBus::apply(const Item& item, std::vector<run::BusEvent>& heard) {
+    if (const auto* const one = std::get_if<Heard>(&item.what)) {
+        const auto found = events_.find(one->frame);
+        if (one->frame == 0) {
+            heard.push_back({.name = one->name, .arguments = {}, .from = one->from});
+        } else if (found != events_.end()) {
+            const RecordedEvent& event = found->second.event;
+            heard.push_back({event.name, event.arguments, event.node, event.frame});
+        }
+    } else if (const auto* const node = std::get_if<NodeChanged>(&item.what)) {
+        using Change = toolbox::BusNodes::Change;
+        if (node->change == Change::Appeared) nodes_->appeared(node->name);
+        if (node->change == Change::Left) (void)nodes_->left(node->name);
+        if (node->change == Change::Stopped) nodes_->stopped(node->name);
+        if (node->change == Change::Runs) nodes_->runs(node->name);
+    } else if (const auto* const moved = std::get_if<TokensMoved>(&item.what)) {
+        run_->move_tokens(moved->token);
+    } else if (const auto* const failed = std::get_if<RunFailed>(&item.what)) {
+        run_->fail(failed->why);
+    } else if (std::holds_alternative<Aborted>(item.what)) {
+        run_->abort();
+    }
+}
+
+void PastBus::skip_late(std::vector<Told>& told) {
+    const auto late = late_.extract(line_);
+    if (late.empty()) return;
+    told.insert(told.end(), late.mapped().begin(), late.mapped().end());
+}
+
+std::vector<PastBus::Told> PastBus::take(const plan::TraceEvent& event) {
+    std::vector<Told> told;
+    std::string text = plan::format_trace(event);
+    if (!parted_) skip_late(told);
+    const Line* const line = next_line();
+    if (line == nullptr) {
+        if (!parted_) parted_ = event.at;
+        told.push_back({event.at, std::move(text)});
+        return told;
+    }
+    const bool near = is_near(line->at, event.at);
+    if (near && without_times(text) == without_times(line->text)) {
+        told.push_back({line->at, line->text});
+        run_->move_clock(line->at);
+        ++line_;
+        return told;
+    }
+    parted_ = std::min(event.at, line->at);
+    plan::TraceEvent then = event;
+    if (near) {
+        then.at = line->at;
+        run_->move_clock(line->at);  // all that follows comes later
+    }
+    told.push_back({then.at, plan::format_trace(then)});
+    return told;
+}
+
+std::vector<PastBus::Told> PastBus::rest() {
+    std::vector<Told> told;
+    if (!parted_) skip_late(told);
+    return told;
+}
+
+bool PastBus::passes_over(const run::Raising& raising) const {
+    const Line* const line = next_line();
+    if (!raising.tied || raising.ignored || line == nullptr) return false;
+    if (line->at - raising.at > kOrderWithin) return false;
+    const auto json = read_json(line->text);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree == nullptr) return false;
+    const bool is_it = text_in(*tree, "kind") == "event" &&
+                       text_in(*tree, "supervisor") == raising.supervisor &&
+                       text_in(*tree, "event") == raising.event;
+    const bool decides = text_in(*tree, "kind") == "event" || text_in(*tree, "kind") == "actor-end";
+    return decides && !is_it;
+}
+
+}  // namespace vagus::record

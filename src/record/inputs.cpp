@@ -161,7 +161,7 @@ struct Format {
         return Message(input, "frame").text("bytes", hex_of(frame)).done();
     }
     std::string operator()(const HeldMoment&) const { return Message(input, "hold").done(); }
-    std::string operator()(const HeardAhead&) const { return Message(input, "hear").done(); }
+    std::string operator()(const HeardAhead&) const { return Message(input, "look").done(); }
     std::string operator()(const run::Request& request) const {
         return std::visit([this](const auto& one) { return ask(one); }, request);
     }
@@ -436,7 +436,7 @@ bool read_what(const std::string& what, const Members& from, Input& input) {
         input.what = *frame;
     } else if (what == "hold") {
         input.what = HeldMoment{};
-    } else if (what == "hear") {
+    } else if (what == "look") {
         input.what = HeardAhead{};
     } else if (what == "plan-files") {
         input.what = plan_files_of(from);

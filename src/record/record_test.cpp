@@ -86,7 +86,7 @@ TEST(Inputs, AreReadAsTheyWereWritten) {
     wire::Frame frame{.size = 2, .source = 1, .type = 0xA00A, .payload = {5, 0}};
     is_read_again(frame, begin + R"("frame","bytes":"020001000aa00500"})");
     is_read_again(HeldMoment{}, begin + R"("hold"})");
-    is_read_again(HeardAhead{}, begin + R"("hear"})");
+    is_read_again(HeardAhead{}, begin + R"("look"})");
     is_read_again(Aborted{"a \"page\""}, begin + R"("abort","by":"a \"page\""})");
     is_read_again(ValueGiven{"n=1"}, begin + R"("set","value":"n=1"})");
     is_read_again(FileTookOver{"a.aesl", "var x"},

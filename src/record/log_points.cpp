@@ -296,6 +296,13 @@ Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const session::Nod
                                           const aesl::Program& program) const {
     const auto first = run_.session->place_of(node.id, 1);
     const int before = first ? first->second - 1 : 0;
+    const std::string file =
+        first ? std::filesystem::path(first->first).filename().string() : node.name;
+    if (!wish.wish.file.empty() && file != wish.wish.file) {
+        return refuse(Code::NotFound, wish.wish,
+                      fmt::format("in the recorded run {} had the script of {}, not of {}",
+                                  label_of(node), file, wish.wish.file));
+    }
     const int pc = debug::pc_of(program, wish.line - before);
     if (pc < 0) {
         std::string near;
@@ -303,8 +310,6 @@ Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const session::Nod
                                debug::next_line_with_code(program, wish.line - before)}) {
             if (line > 0) near += fmt::format("{}{}", near.empty() ? "" : " and ", line + before);
         }
-        const std::string file =
-            first ? std::filesystem::path(first->first).filename().string() : node.name;
         return refuse(Code::NotFound, wish.wish,
                       fmt::format("{} has no code at line {} of {}; the nearest with code: {}",
                                   label_of(node), wish.line, file, near.empty() ? "none" : near));

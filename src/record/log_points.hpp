@@ -42,6 +42,7 @@ constexpr size_t kLogListShown = 32;  // words of an array in a line for people
 struct LogWish {
     std::string where;
     std::string values;
+    std::string file = {};  // the last part of the path of the script; empty: whichever
 };
 
 struct LoggedValue {

@@ -436,6 +436,15 @@ export interface WhyLink {
   root: boolean;
 }
 
+/** What a log point found when it was reached. */
+export interface LogHit {
+  t: number;
+  /** NODE:LINE of the file, with the robot before it where there are several; empty: of the plan */
+  where: string;
+  /** in the order of the names; an array as [1, 2, 3] */
+  values: string[];
+}
+
 /** A test of behaviour, as it is run. */
 export interface TestRun {
   path: Path;
@@ -1751,6 +1760,35 @@ export interface Commands {
     /** the newest first */
     chain: WhyLink[];
   } };
+  /** What variables held each time that a line of a script or an element of the plan was reached in the run that is shown: it is run again from its recording, all of it, which changes nothing. Of a run that goes on there is what is recorded by now. */
+  'log.ask': { in: {
+    /** for log.cancel, of the client's choice */
+    number: number;
+    doc: Doc;
+    /** of a script; it is reached as by a breakpoint there */
+    line?: number;
+    /** of a plan: an actor, or a supervisor */
+    element?: string;
+    /** of the element; leave: it ended, or was interrupted */
+    when?: 'enter' | 'leave' | 'raise';
+    /** with commas between them: of a node, variables and expressions in AESL; of a plan, formulas */
+    values: string;
+  }; out: {
+    /** the values as they were asked */
+    names: string[];
+    /** the oldest first */
+    hits: LogHit[];
+    /** that follow these */
+    more: number;
+    /** so far the run was asked */
+    until: number;
+    /** the line of the script as the recording has it; empty: of the plan */
+    text: string;
+  } };
+  /** A log.ask of this client is not to be answered any more: it fails. */
+  'log.cancel': { in: {
+    number: number;
+  }; out: Record<never, never> };
   /** Puts a robot or an object somewhere else, as a hand would. */
   'world.move': { in: {
     robot?: string;
@@ -2125,6 +2163,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
   HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   WhyLink: { t: 'number', what: 'line(1000)', value: 'line(1000)', place: 'line(1200)', doc: 'Doc?', line: 'int(1..10000000)?', element: 'line(256)?', root: 'bool' },
+  LogHit: { t: 'number', where: 'line(256)', values: '[line(1000); 16]' },
   TestRun: { path: 'Path', runs: 'number', done: 'number', failed: 'number', why: 'line(2000)?', at: 'Place?', failures: '[TestFailure; 100]' },
   TestFailure: { seed: 'number', t: 'number?', at: 'Place?', expected: 'line(1000)?', what: 'line(2000)', help: 'line(500)?', recording: 'Path?' },
   CoverageRow: { path: 'Path', kinds: '[CoverageShare; 8]' },
@@ -2281,6 +2320,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'tests.run': { may: 'driver', kind: 'act', out: {} },
   'tests.stop': { may: 'driver', kind: 'edit', out: {} },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
+  'log.ask': { may: 'look', kind: 'look', out: { names: '[line(1000); 16]', hits: '[LogHit; 5000]', more: 'number', until: 'number', text: 'line(1000)' } },
+  'log.cancel': { may: 'look', kind: 'look', out: {} },
   'world.move': { may: 'driver', kind: 'act', out: {} },
   'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },
   'world.take': { may: 'driver', kind: 'act', out: {} },

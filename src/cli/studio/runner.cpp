@@ -2,6 +2,7 @@
 
 #include "cli/host_verb.hpp"
 #include "cli/output.hpp"
+#include "serve/runner/log_host.hpp"
 #include "serve/runner/runner.hpp"
 #include "serve/runner/try_host.hpp"
 #include "serve/runner/why_host.hpp"
@@ -18,6 +19,11 @@ void add_runner(CLI::App& app, int& exit_code) {
 
 void add_why_host(CLI::App& app, int& exit_code) {
     add_host_verb(app, {"why-host", "a question about a run of the studio"}, serve::run_why,
+                  exit_code);
+}
+
+void add_log_host(CLI::App& app, int& exit_code) {
+    add_host_verb(app, {"log-host", "log points put into a run of the studio"}, serve::run_log,
                   exit_code);
 }
 

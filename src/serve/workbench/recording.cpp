@@ -122,6 +122,11 @@ void Workbench::record_script(uint16_t node, const std::string& name) {
     if (text.ok()) run_.script_loaded(node, project_->real(part->file), text.value());
 }
 
+ShownRun Workbench::shown_run() {
+    return {.file = [this] { return recording_of_run(); },
+            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }};
+}
+
 Result<std::string> Workbench::recording_of_run() const {
     if (bus_) {
         return Error{Code::Unavailable,

@@ -4,6 +4,7 @@ import type { Studio } from '../../core/studio';
 import { revealDoc, revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
 import { askWhy } from './ask_why';
+import { canLog, logAt } from './log_values';
 import { drives } from './looks';
 
 const titles = text.commands;
@@ -97,6 +98,17 @@ export function pastCommands(studio: Studio): Command[] {
       run: () => askWhy(studio, 'end'),
     },
     {
+      id: 'past.log',
+      title: titles['past.log'],
+      group,
+      keys: ['Shift+F9'],
+      enabled: () => canLog(studio) && scriptLine(studio) !== null,
+      async run() {
+        const at = scriptLine(studio);
+        if (at) await logAt(studio, { is: 'line', ...at });
+      },
+    },
+    {
       id: 'test.keep',
       title: titles['test.keep'],
       group,
@@ -118,6 +130,13 @@ export function pastCommands(studio: Studio): Command[] {
       },
     },
   ];
+}
+
+/** Where the caret is; null: in no script. */
+function scriptLine(studio: Studio): { doc: string; line: number } | null {
+  const { doc, cursor } = studio.window.getState();
+  const isScript = cursor !== null && cursor.doc === doc && cursor.doc.includes('#');
+  return isScript ? { doc: cursor.doc, line: cursor.line } : null;
 }
 
 /** The run begins again, comes to that instant, and goes another way from there. */

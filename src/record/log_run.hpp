@@ -1,6 +1,8 @@
 // A recorded run that is run again, all of it, for what its log points tell (log_points.hpp).
 //
-//     const auto wishes = [](Rerun&) { return Wishes({{"drive:42", "token, patience"}}); };
+//     const auto wishes = [](Rerun&) -> Wishes {
+//         return std::vector<LogWish>{{"drive:42", "token, patience"}};
+//     };
 //     const Time until = TRY(log_run(reader, {.wishes = wishes, .told = show}));
 //
 // Of a run that goes on there is what was written by now.

@@ -300,6 +300,7 @@ export const text = {
     tests: 'Tests',
     why: 'Why',
     logs: 'Log points',
+    runs: 'Compare runs',
   },
   why: {
     menu: 'Why?',
@@ -510,6 +511,7 @@ export const text = {
     delete: 'Delete',
     remove: (name: string) => `${name} was moved to .vagus/trash.`,
     openText: 'Open as text',
+    compare: 'Compare with…',
     copyPath: 'Copy the path',
     copied: (path: string) => `${path} is on the clipboard.`,
     exportZip: 'Export as zip',

@@ -100,18 +100,17 @@ Result<Json> hits_of(const Json& asked, std::string& where) {
     const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
     Hits hits;
     std::string line;
-    const record::LogRun wanted = {
-        .wishes = [&](record::Rerun& rerun) -> record::Wishes {
-            record::LogWish wish = TRY(wish_of(rerun, asked));
-            where = wish.where;
-            return std::vector{std::move(wish)};
-        },
-        .told = [&](const record::LogHit& hit) { hits.add(hit); },
-        .settled =
-            [&](record::Rerun& rerun) {
-                line = line_in(rerun, asked);
-                return Status::done();
-            }};
+    const record::LogRun wanted = {.wishes = [&](record::Rerun& rerun) -> record::Wishes {
+                                       record::LogWish wish = TRY(wish_of(rerun, asked));
+                                       where = wish.where;
+                                       return std::vector{std::move(wish)};
+                                   },
+                                   .told = [&](const record::LogHit& hit) { hits.add(hit); },
+                                   .settled =
+                                       [&](record::Rerun& rerun) {
+                                           line = line_in(rerun, asked);
+                                           return Status::done();
+                                       }};
     const Time until = TRY(record::log_run(reader, wanted));
     Json answer = hits.take();
     answer["until"] = seconds_of(until);
@@ -133,6 +132,8 @@ std::string answer_log(const std::string& question) {
     return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-int run_log(Pipe pipe) { return answer_one(std::move(pipe), {kLogAsked, kLogAnswered}, answer_log); }
+int run_log(Pipe pipe) {
+    return answer_one(std::move(pipe), {kLogAsked, kLogAnswered}, answer_log);
+}
 
 }  // namespace vagus::serve

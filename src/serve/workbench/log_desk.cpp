@@ -47,8 +47,9 @@ Result<Json> LogDesk::place_of(const Json& in) const {
     if (in.contains("element") && in.contains("when")) {
         return Json{{"plan", doc}, {"element", in["element"]}, {"when", in["when"]}};
     }
-    return Error{Code::BadInput,
-                 "in: expected a line of a script, or an element of a plan and when; found neither"};
+    return Error{
+        Code::BadInput,
+        "in: expected a line of a script, or an element of a plan and when; found neither"};
 }
 
 // The recording counts lines of files and knows nodes by their names.

@@ -14,7 +14,9 @@ void Questions::ask(const Call& call, const Json& question, Then then) {
     asked_.push_back({call, std::move(child.value()), std::move(then), std::nullopt});
 }
 
-void fail_cancelled(const Call& call) { call.fail("unavailable", "the question was cancelled"); }
+void fail_cancelled(const Call& call) {
+    call.fail("unavailable", "the question was cancelled");
+}
 
 void Questions::cancel(const std::function<bool(const Call& call)>& is_meant) {
     std::erase_if(asked_, [&](const Asked& one) {

@@ -10,8 +10,8 @@ namespace vagus::serve {
 
 void RunQuestions::ask(const Call& call, Json question, Questions::Then then) {
     if (questions_.count() + flushing_.size() >= at_once_) {
-        return call.fail(
-            "limit", fmt::format("{} questions are being answered; wait for them", at_once_));
+        return call.fail("limit",
+                         fmt::format("{} questions are being answered; wait for them", at_once_));
     }
     const auto file = run_.file();
     if (!file.ok()) return call.fail(file.error());
@@ -19,9 +19,8 @@ void RunQuestions::ask(const Call& call, Json question, Questions::Then then) {
     const uint64_t number = ++numbers_;
     flushing_.push_back({number, call});
     run_.flush([this, number, question = std::move(question), then = std::move(then)] {
-        const auto one = std::find_if(flushing_.begin(), flushing_.end(), [&](const Flushing& is) {
-            return is.number == number;
-        });
+        const auto one = std::find_if(flushing_.begin(), flushing_.end(),
+                                      [&](const Flushing& is) { return is.number == number; });
         if (one == flushing_.end()) return;  // cancelled meanwhile
         const Call waiting = std::move(one->call);
         flushing_.erase(one);

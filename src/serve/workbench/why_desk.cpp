@@ -51,7 +51,8 @@ void WhyDesk::ask(const Call& call) {
     if (call.in["about"] != "end") question.push_back(call.in["name"]);
     Json asked = {{"question", std::move(question)}};
     if (call.in.contains("t")) asked["at"] = call.in["t"];
-    questions_.ask(call, std::move(asked), [this, call](const Json& answer) { tell(call, answer); });
+    questions_.ask(call, std::move(asked),
+                   [this, call](const Json& answer) { tell(call, answer); });
 }
 
 void WhyDesk::tell(const Call& call, const Json& answered) {

@@ -40,6 +40,7 @@
 #include "serve/workbench/library.hpp"
 #include "serve/workbench/log_desk.hpp"
 #include "serve/workbench/opened.hpp"
+#include "serve/workbench/pair_desk.hpp"
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
@@ -197,6 +198,7 @@ private:
     void record_script(uint16_t node, const std::string& name);
     ShownRun shown_run();
     Result<std::string> recording_of_run() const;
+    Result<std::string> recording_at(const std::string& path) const;
     void begin_past(const Call& call, RunOrder order, bool go);
     void list_recordings(const Call& call);
     void open_recording(const Call& call);
@@ -291,6 +293,7 @@ private:
     std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
     LogDesk logs_;
+    PairDesk pairs_;
     CompareDesk compares_;
     TryDesk tries_;
     TestDesk tests_;

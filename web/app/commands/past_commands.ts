@@ -4,6 +4,7 @@ import type { Studio } from '../../core/studio';
 import { revealDoc, revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
 import { askWhy } from './ask_why';
+import { shownEditor } from './editor_handles';
 import { canLog, logAt } from './log_values';
 import { drives } from './looks';
 
@@ -134,9 +135,9 @@ export function pastCommands(studio: Studio): Command[] {
 
 /** Where the caret is; null: in no script. */
 function scriptLine(studio: Studio): { doc: string; line: number } | null {
-  const { doc, cursor } = studio.window.getState();
-  const isScript = cursor !== null && cursor.doc === doc && cursor.doc.includes('#');
-  return isScript ? { doc: cursor.doc, line: cursor.line } : null;
+  const { doc } = studio.window.getState();
+  const line = doc?.includes('#') ? shownEditor(studio)?.line() : undefined;
+  return doc === null || line === undefined ? null : { doc, line };
 }
 
 /** The run begins again, comes to that instant, and goes another way from there. */

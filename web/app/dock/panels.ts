@@ -153,6 +153,13 @@ export const panels: readonly Panel[] = [
     view: late(() => import('../panels/why/why_panel')),
   },
   {
+    id: 'runs',
+    like: 'documents',
+    title: text.panels.runs,
+    icon: IconTimeline,
+    view: late(() => import('../panels/runs/runs_panel')),
+  },
+  {
     id: 'logs',
     least: 220,
     title: text.panels.logs,

@@ -55,6 +55,7 @@ export function PointRow({ point, onDown }: { point: LogPoint; onDown(): void })
           onChange={(event) => (setTyped(event.target.value), setWrong(''))}
           onKeyDown={pressed}
         />
+        <span className="logs__state muted num">{stateOf(point, logs.asking === number)}</span>
         {state === 'waits' ? (
           <Button small onClick={() => logs.cancel(number)}>
             {words.cancel}
@@ -64,7 +65,6 @@ export function PointRow({ point, onDown }: { point: LogPoint; onDown(): void })
             {state === 'typed' || !isSame ? words.ask : words.again}
           </Button>
         )}
-        <span className="logs__state muted num">{stateOf(point, logs.asking === number)}</span>
         <Button
           kind="plain"
           small

@@ -15,7 +15,7 @@
 
 namespace vagus::record {
 
-constexpr size_t kTrackSpansMax = 5000;  // of actors, of events; the others are counted
+constexpr size_t kTrackSpansMax = 5000;   // of actors, of events; the others are counted
 constexpr size_t kTrackPointsMax = 2000;  // of the way of one robot; a longer one is thinned out
 constexpr size_t kTrackRobotsMax = 64;
 constexpr size_t kTrackShapesMax = 2000;

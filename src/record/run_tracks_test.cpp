@@ -37,10 +37,9 @@ struct Made {
 };
 
 std::string entity(const std::string& id, double x, const std::string& kind = "cubes") {
-    return fmt::format(
-        R"({{"id":"{}","{}":[{{"pose":{{"position":{{"x":{},"y":2}},)"
-        R"("orientation":{{"z":0,"w":1}}}},"size":{{"x":0.2,"y":0.1}}}}]}})",
-        id, kind, x);
+    return fmt::format(R"({{"id":"{}","{}":[{{"pose":{{"position":{{"x":{},"y":2}},)"
+                       R"("orientation":{{"z":0,"w":1}}}},"size":{{"x":0.2,"y":0.1}}}}]}})",
+                       id, kind, x);
 }
 std::string scene(const std::string& entities) {
     return R"({"deletions":[],"entities":[)" + entities + "]}";
@@ -62,8 +61,8 @@ TEST(RunTracks, ActorsLastFromTheirBeginningToTheirEnd) {
     EXPECT_EQ(tracks.end, Time(9s));
     std::vector<std::string> spans;
     for (const ActorSpan& one : tracks.actors) {
-        spans.push_back(fmt::format("{} {} {}..{}", one.level, one.actor, one.from.count() / 1000000,
-                                    one.to.count() / 1000000));
+        spans.push_back(fmt::format("{} {} {}..{}", one.level, one.actor,
+                                    one.from.count() / 1000000, one.to.count() / 1000000));
     }
     EXPECT_EQ(spans, (std::vector<std::string>{"0 a 1..3", "1 inner 2..3", "0 a 4..9"}));
     ASSERT_EQ(tracks.events.size(), 1u);
@@ -74,7 +73,8 @@ TEST(RunTracks, ActorsLastFromTheirBeginningToTheirEnd) {
 
 TEST(RunTracks, WaysAreOfRobotsAndTheSceneIsThatOfTheBeginning) {
     Made made;
-    made.put(kSceneTopic, 0s, scene(entity("object/1", 1) + "," + entity("object/2", 3, "cylinders")));
+    made.put(kSceneTopic, 0s,
+             scene(entity("object/1", 1) + "," + entity("object/2", 3, "cylinders")));
     made.put(kPosesTopic, 0s, scene(entity("robot/r", 1) + "," + entity("object/1", 1)));
     made.put(kPosesTopic, 1s, scene(entity("robot/r", 1.5)));
     made.put(kSceneTopic, 2s, scene(entity("object/3", 4)));
@@ -96,7 +96,8 @@ TEST(RunTracks, ALongWayIsThinnedOutAndManySpansAreCounted) {
         made.put(kPosesTopic, i * 100ms, scene(entity("robot/r", static_cast<double>(i))));
     }
     for (size_t i = 0; i < kTrackSpansMax + 1; ++i) {
-        made.put(kTraceTopic, i * 1ms, R"({"plan":"P","kind":"event","supervisor":"s","event":"E"})");
+        made.put(kTraceTopic, i * 1ms,
+                 R"({"plan":"P","kind":"event","supervisor":"s","event":"E"})");
     }
     const RunTracks tracks = made.tracks();
     ASSERT_EQ(tracks.ways.size(), 1u);

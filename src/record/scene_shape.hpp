@@ -1,5 +1,5 @@
-// What a recording says of one thing in the world: an entity of foxglove.SceneUpdate, as the recorder
-// writes it, seen from above.
+// What a recording says of one thing in the world: an entity of foxglove.SceneUpdate, as the
+// recorder writes it, seen from above.
 //
 //     if (const auto shape = scene_shape(entity)) draw(shape->x, shape->y);
 #pragma once

@@ -1,5 +1,5 @@
-// The verbs `run-host`, `why-host`, `log-host`, `compare-host` and `try-host`, which --help does not
-// show: a run, questions about one or two, and a plan that is tried, as processes of their own,
+// The verbs `run-host`, `why-host`, `log-host`, `compare-host` and `try-host`, which --help does
+// not show: a run, questions about one or two, and a plan that is tried, as processes of their own,
 // started by the studio's server.
 #pragma once
 

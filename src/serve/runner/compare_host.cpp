@@ -57,9 +57,12 @@ Json of_run(const mcap::Reader& reader, const record::RunTracks& tracks, Time st
     }
     Json ways = Json::array();
     for (const record::RobotWay& one : tracks.ways) ways.push_back(of_way(one));
-    return {{"start", seconds_of(start)},   {"end", seconds_of(tracks.end)},
-            {"complete", reader.is_complete()}, {"actors", std::move(actors)},
-            {"events", std::move(events)},  {"ways", std::move(ways)},
+    return {{"start", seconds_of(start)},
+            {"end", seconds_of(tracks.end)},
+            {"complete", reader.is_complete()},
+            {"actors", std::move(actors)},
+            {"events", std::move(events)},
+            {"ways", std::move(ways)},
             {"more", tracks.more}};
 }
 
@@ -113,8 +116,8 @@ std::string without(const std::string& text, std::string_view prefix) {
 
 std::string answer_compare(const std::string& question) {
     const Json asked = Json::parse(question, nullptr, false);
-    const bool good = asked.is_object() && asked.contains("a") && asked.contains("b") &&
-                      asked.contains("align");
+    const bool good =
+        asked.is_object() && asked.contains("a") && asked.contains("b") && asked.contains("align");
     if (!good) return "";
     const auto found = compared(asked);
     const Json answer =

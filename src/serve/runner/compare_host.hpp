@@ -3,7 +3,7 @@
 //
 //     vagus compare-host      (not for people: the studio starts it)
 //
-//     pipe.send(kCompareAsked, R"({"a":"run-1.mcap","b":"run-2.mcap","align":["actor","follow"]})");
+//     pipe.send(kCompareAsked, R"({"a":"run-1.mcap","b":"run-2.mcap","align":["actor","go"]})");
 //     // answers {"a":{"start":2.5,"end":120.1,"actors":[…],"events":[…],"ways":[…],…},"b":{…},
 //     //          "lanes":[…],"started":[…],"scene":[…]}, or {"error":"…"}
 #pragma once

@@ -50,8 +50,9 @@ Result<record::LogWish> wish_of(record::Rerun& rerun, const Json& asked) {
 // The line of the script as the recording has it, so that a page sees whether it is another by now.
 std::string line_in(record::Rerun& rerun, const Json& asked) {
     if (!asked.contains("node") || rerun.session() == nullptr) return "";
+    const std::string name = asked["node"];
     for (const session::NodeState& node : rerun.session()->nodes()) {
-        if (node.name != asked["node"]) continue;
+        if (node.name != name) continue;
         const auto first = rerun.session()->place_of(node.id, 1);
         const auto text = first ? read_file(first->first) : Error{Code::NotFound, ""};
         if (!text.ok()) return "";

@@ -1,15 +1,15 @@
-// One log point put into a recorded run afterwards (record/log_run.hpp), by a process of its own: the
-// run is run again, all of it.
+// One log point put into a recorded run afterwards (record/log_run.hpp), by a process of its own:
+// the run is run again, all of it.
 //
 //     vagus log-host      (not for people: the studio starts it)
 //
 //     pipe.send(kLogAsked, R"({"file":"run.mcap","values":"token, patience",
 //                              "node":"drive","line":193,"script":"carbot.aesl"})");
 //     pipe.send(kLogAsked, R"({"file":"run.mcap","values":"walldist","when":"enter",
-//                              "plan":"follow-wall/WallFollow.plan.json","element":"followWall"})");
+//                              "plan":"WallFollow.plan.json","element":"followWall"})");
 //     // answers {"names":["token","patience"],"hits":[{"t":9.5,"where":"drive:193",
-//     //          "values":["8","10"]}],"more":0,"until":120.1,"text":"emit drive.arrived [token]"},
-//     // or {"error":"…"}
+//     //          "values":["8","10"]}],"more":0,"until":120.1,
+//     //          "text":"emit drive.arrived [token]"}, or {"error":"…"}
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@
 
 namespace vagus::serve {
 
-constexpr size_t kPairsAtOnce = 2;      // processes; further questions are refused
+constexpr size_t kPairsAtOnce = 2;     // processes; further questions are refused
 constexpr Duration kPairWithin = 60s;  // then a question is not waited for any more
 constexpr Duration kPairLookEvery = 10ms;
 constexpr size_t kPairMemoryMax = size_t{2} << 30;

@@ -1,5 +1,5 @@
-// Questions about the run that is shown (questions.hpp): its process writes first what is recorded so
-// far, then a process of its own answers from that file.
+// Questions about the run that is shown (questions.hpp): its process writes first what is recorded
+// so far, then a process of its own answers from that file.
 //
 //     RunQuestions questions({.program = "/usr/bin/vagus", .verb = "why-host", .kind = kWhyAsked,
 //                             .within = kWhyWithin, .look_every = kWhyLookEvery},

@@ -36,9 +36,10 @@ protected:
                     if (has_run) return std::string("run-1.mcap");
                     return Error{Code::Unavailable, "nothing has run yet"};
                 },
-                .flush = [this](std::function<void()> done) {
-                    holds ? held.push_back(std::move(done)) : done();
-                }};
+                .flush =
+                    [this](std::function<void()> done) {
+                        holds ? held.push_back(std::move(done)) : done();
+                    }};
     }
 
     bool holds = false;

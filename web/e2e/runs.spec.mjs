@@ -1,11 +1,11 @@
 // Two recorded runs side by side: the first difference of each lane, and both at that instant.
 import assert from 'node:assert/strict';
-import { execFileSync, spawnSync } from 'node:child_process';
-import { readdirSync } from 'node:fs';
-import { join } from 'node:path';
+import { spawnSync } from 'node:child_process';
+import { copyFileSync, readdirSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { look } from './support/axe.mjs';
-import { runTo } from './support/runs.mjs';
-import { root, vagusProgram } from './support/server.mjs';
+import { lastRecording, runTo } from './support/runs.mjs';
+import { vagusProgram } from './support/server.mjs';
 import { reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
 
@@ -19,23 +19,27 @@ const cursor = (/** @type {Page} */ page) =>
 const form = (/** @type {Page} */ page) =>
   page.getByRole('form', { name: 'Which runs are compared' });
 
-/** A run of the same plan and world with another variable, beside the files of the project. */
-function recordOther(/** @type {string} */ folder) {
-  const follow = join(root, 'examples/follow-wall');
+/** A run of the same plan and world with another variable, as a file of the project. */
+async function recordOther(/** @type {string} */ folder) {
+  const project = await until('the project is a folder', () => {
+    const all = readdirSync(folder, { recursive: true, encoding: 'utf8' });
+    const plan = all.find((one) => one.endsWith('WallFollow.plan.json'));
+    return plan === undefined ? undefined : dirname(join(folder, plan));
+  });
+  const other = join(project, 'other.mcap');
   const words = ['plan', 'run', 'WallFollow.plan.json', '--world', 'hall.world.json'];
   const more = ['--set', 'walldist=45', '--clock', 'virtual', '--max-time', '12', '--quiet'];
-  const other = join(folder, 'other.mcap');
-  spawnSync(vagusProgram, [...words, ...more, '--record', other], { cwd: follow });
+  spawnSync(vagusProgram, [...words, ...more, '--record', other], { cwd: project });
   return other;
 }
 
 /** What the command line tells: name and instant in both of each lane that differs. */
-function compared(/** @type {string} */ folder, /** @type {string[]} */ ...align) {
-  const mine = readdirSync(folder, { recursive: true, encoding: 'utf8' }).find((one) =>
-    one.endsWith('run-1.mcap'),
-  );
-  assert.ok(mine, 'the run was recorded');
-  const words = ['compare', join(folder, mine), join(folder, 'other.mcap'), '--json'];
+function compared(
+  /** @type {string} */ folder,
+  /** @type {string} */ other,
+  /** @type {string[]} */ ...align
+) {
+  const words = ['compare', lastRecording(folder), other, '--json'];
   const { stdout } = spawnSync(vagusProgram, [...words, ...align], { encoding: 'utf8' });
   const { lanes } =
     /** @type {{ lanes: { lane: string, difference: { a_t: number } | null }[] }} */ (
@@ -56,32 +60,34 @@ async function listed(/** @type {Page} */ page) {
   );
 }
 
-/** Chooses in the list of recordings that has the keyboard. */
-async function choose(/** @type {Studio} */ { page, press }, /** @type {string} */ value) {
-  const list = form(page).getByRole('combobox', { name: 'B', exact: true });
+/** Chooses a recording, by the keyboard. */
+async function choose(
+  /** @type {Studio} */ { page, press },
+  /** @type {string} */ side,
+  /** @type {string} */ file,
+) {
+  const list = form(page).getByRole('combobox', { name: side, exact: true });
+  await until('the recording is listed', async () => (await list.innerText()).includes(file));
   await list.focus();
-  for (let at = 0; (await list.inputValue()) !== value; ++at) {
-    assert.ok(at < 10, `${value} can be chosen`);
+  for (let at = 0; !(await list.inputValue()).endsWith(file); ++at) {
+    assert.ok(at < 10, `${file} can be chosen`);
     await press('ArrowDown');
   }
 }
 
 test('a run beside a recording of another one', wall, async (studio) => {
   const { page, press, type, server } = studio;
-  recordOther(server.folder);
+  const other = await recordOther(server.folder);
   await runTo(studio, 'parallelToWall');
   await page.getByRole('tab', { name: 'Timeline' }).click();
   await page.getByRole('button', { name: 'Open a run before this one' }).click();
   await page.getByRole('menuitem', { name: 'Compare with…' }).click();
   await seen(form(page));
   // By keys alone from here: the other run, and compare.
-  await until('the recording is listed', async () =>
-    (await form(page).innerText()).includes('other.mcap'),
-  );
-  await choose(studio, 'other.mcap');
+  await choose(studio, 'B', 'other.mcap');
   await press('Tab', 'Tab', 'Enter');
   await seen(lanes(page));
-  const expected = compared(server.folder);
+  const expected = compared(server.folder, other);
   assert.ok(expected.length > 3, expected.join('; '));
   assert.deepEqual(await listed(page), expected);
   await look(studio, 'runs');
@@ -122,34 +128,30 @@ test('a run beside a recording of another one', wall, async (studio) => {
   await seen(lanes(page));
   assert.deepEqual(
     await listed(page),
-    compared(server.folder, '--align', 'actor', 'findWallAngle'),
+    compared(server.folder, other, '--align', 'actor', 'findWallAngle'),
   );
   await reads(lanes(page).first(), /s of A, .* s of B/);
   // The other one in the whole window; the run that was shown is a recording by then.
   await page.getByRole('button', { name: 'Show B here' }).click();
   await seen(bar(page));
   const a = form(page).getByRole('combobox', { name: 'A', exact: true });
-  await until('A is named', async () => (await a.inputValue()).endsWith('run-1.mcap'));
+  await until('A is named', async () => /run-\d+\.mcap$/.test(await a.inputValue()));
   await seen(lanes(page));
 });
 
 test('from the tree, the same twice has no difference', wall, async (studio) => {
-  const { page, press, server } = studio;
-  execFileSync('cp', [recordOther(server.folder), join(server.folder, 'again.mcap')]);
+  const { page, server, layout } = studio;
+  await layout('Script');
+  const other = await recordOther(server.folder);
+  copyFileSync(other, join(dirname(other), 'again.mcap'));
   const row = page.getByRole('treeitem', { name: /other\.mcap/ });
   await row.click({ button: 'right' });
   await page.getByRole('menuitem', { name: 'Compare with…' }).click();
   await seen(form(page));
-  const a = form(page).getByRole('combobox', { name: 'A', exact: true });
-  await a.focus();
   // Nothing has run: that is told.
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
   await reads(page.getByRole('alert'), /nothing has run yet/);
-  await a.focus();
-  for (let at = 0; (await a.inputValue()) !== 'again.mcap'; ++at) {
-    assert.ok(at < 10);
-    await press('ArrowDown');
-  }
+  await choose(studio, 'A', 'again.mcap');
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
   await seen(page.getByText('No difference: both runs are the same.'));
   assert.equal(await page.locator('.runs__robot').count(), 2);

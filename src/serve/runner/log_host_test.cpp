@@ -44,7 +44,7 @@ TEST(LogHost, ItTellsWhatAScriptHeldEachTime) {
     ASSERT_FALSE(answer.contains("error")) << answer;
     EXPECT_EQ(Protocol::get().fault_of_answer("log.ask", answer), std::nullopt);
     EXPECT_EQ(answer["names"], Json({"token", "watch.left[0] / 2"}));
-    EXPECT_EQ(answer["text"], "\t\temit drive.arrived [token]");
+    EXPECT_EQ(answer["text"], "  emit drive.arrived [token]");
     EXPECT_EQ(answer["more"], 0);
     ASSERT_EQ(answer["hits"].size(), 1u);
     EXPECT_EQ(answer["hits"][0]["where"], "drive:193");

@@ -9,7 +9,7 @@ export function PointNotes({ point, trouble }: { point: LogPoint; trouble: strin
   const { place, found } = point;
   const lines = place.is === 'line' ? shownView(studio, place.doc)?.state.doc : undefined;
   const isThere = place.is === 'line' && lines !== undefined && place.line <= lines.lines;
-  const now = isThere ? lines.line(place.line).text.trim() : undefined;
+  const now = isThere ? lines.line(place.line).text.replaceAll(/\s/g, ' ').trim() : undefined;
   const then = found?.text.trim() ?? '';
   const isOther = then !== '' && now !== undefined && now !== then;
   return (

@@ -54,7 +54,7 @@ export function PairForm() {
           <option key={name} value={name} />
         ))}
       </datalist>
-      <Button small kind="primary" type="submit" disabled={wish.a === wish.b}>
+      <Button small type="submit" disabled={wish.a === wish.b}>
         {words.compare}
       </Button>
     </form>

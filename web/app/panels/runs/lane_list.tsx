@@ -6,13 +6,12 @@ import { stepThroughRows } from '../../parts/list_keys';
 import { lookAtBoth } from './look_at_both';
 import { runWords as words } from './words';
 
-/** What the two were started with, and where each lane differs first: a click goes there in both. */
+/** Where each lane differs first: a click goes there in both; and what the two were started with. */
 export function LaneList({ found }: { found: Compared }) {
   const differ = found.lanes.filter(({ t }) => t !== undefined);
   const same = found.lanes.filter(({ t }) => t === undefined).map(({ name }) => name);
   return (
     <div className="runs__lanes scroll">
-      {found.started.length > 0 ? <Started found={found} /> : null}
       {differ.length > 0 ? (
         <ol className="runs__list" aria-label={words.lanes} onKeyDown={stepThroughRows}>
           {differ.map((lane) => (
@@ -27,6 +26,7 @@ export function LaneList({ found }: { found: Compared }) {
           {words.none} {same.join(', ')}
         </p>
       ) : null}
+      {found.started.length > 0 ? <Started found={found} /> : null}
     </div>
   );
 }

@@ -34,13 +34,13 @@ export default function RunsPanel() {
           <p className="runs__note" role="status">
             {sentenceOf(found.lanes)}
           </p>
+          <div className="runs__side">
+            <PairInstant found={found} t={t} asked={asked} />
+            <PairTracks found={found} t={t} />
+          </div>
           <div className="runs__both">
-            <div className="runs__side">
-              <PairInstant found={found} t={t} asked={asked} />
-              <PairTracks found={found} t={t} />
-              <PairWorld found={found} t={t} />
-            </div>
             <LaneList found={found} />
+            <PairWorld found={found} t={t} />
           </div>
         </>
       ) : null}

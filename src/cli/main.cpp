@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
     vagus::cli::add_page(app, exit_code);
     vagus::cli::add_runner(app, exit_code);
     vagus::cli::add_why_host(app, exit_code);
+    vagus::cli::add_log_host(app, exit_code);
+    vagus::cli::add_compare_host(app, exit_code);
     vagus::cli::add_try_host(app, exit_code);
     vagus::cli::add_test_host(app, exit_code);
     vagus::cli::shape_help(app);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "record/compare_tape.hpp"
+#include "record/scene_shape.hpp"
 
 namespace vagus::record {
 
@@ -180,11 +181,6 @@ struct Sample {
     double angle = 0;  // rad
 };
 
-double number_in(const JsonValue* from, std::string_view key) {
-    const JsonValue* const value = from != nullptr ? from->find(key) : nullptr;
-    return value != nullptr ? value->number : 0;
-}
-
 std::string pose_json(const Sample& pose) {
     return fmt::format(R"({{"x":{:.6f},"y":{:.6f},"angle":{:.2f}}})", pose.x, pose.y,
                        pose.angle * 180 / trig::kPi);
@@ -201,18 +197,8 @@ public:
 
     void add(Side side, Time at, const JsonValue& entity) override {
         if (difference()) return;
-        for (const char* const kind : {"cubes", "cylinders"}) {
-            const JsonValue* const shapes = entity.find(kind);
-            if (shapes == nullptr || shapes->items.empty()) continue;
-            const JsonValue* const pose = shapes->items.front().find("pose");
-            if (pose == nullptr) continue;
-            const JsonValue* const place = pose->find("position");
-            const JsonValue* const way = pose->find("orientation");
-            samples_[index(side)].push_back(
-                {at, number_in(place, "x"), number_in(place, "y"),
-                 2 * trig::atan2(number_in(way, "z"), number_in(way, "w"))});
-            return;
-        }
+        const auto shape = scene_shape(entity);
+        if (shape) samples_[index(side)].push_back({at, shape->x, shape->y, shape->angle});
     }
 
     void follow(Time until) override {

@@ -12,6 +12,7 @@
 #include "record/compare_tape.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
+#include "record/scene_shape.hpp"
 #include "record/topics.hpp"
 
 namespace vagus::record {
@@ -21,11 +22,6 @@ namespace {
 constexpr Duration kOutOfOrder = std::chrono::seconds(1);  // messages of different channels
 constexpr uint64_t kLookEvery = 1000;                      // messages
 constexpr std::string_view kEndLane = "end";
-
-std::string text_in(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    return value != nullptr ? value->text : "";
-}
 
 // ---- what is looked up before ----
 

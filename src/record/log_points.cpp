@@ -298,18 +298,27 @@ Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const session::Nod
                                           const aesl::Program& program) const {
     const auto first = run_.session->place_of(node.id, 1);
     const int before = first ? first->second - 1 : 0;
-    const int pc = debug::pc_of(program, wish.line - before);
+    const std::string file =
+        first ? std::filesystem::path(first->first).filename().string() : node.name;
+    if (!wish.wish.file.empty() && file != wish.wish.file) {
+        return refuse(Code::NotFound, wish.wish,
+                      fmt::format("in the recorded run {} had the script of {}, not of {}",
+                                  label_of(node), file, wish.wish.file));
+    }
+    const int line = wish.line - before;
+    const int pc = debug::pc_of(program, line);
     if (pc < 0) {
+        const bool of_script = !wish.wish.file.empty();
+        const int told = of_script ? 0 : before;
         std::string near;
-        for (const int line : {debug::previous_line_with_code(program, wish.line - before),
-                               debug::next_line_with_code(program, wish.line - before)}) {
-            if (line > 0) near += fmt::format("{}{}", near.empty() ? "" : " and ", line + before);
+        for (const int one : {debug::previous_line_with_code(program, line),
+                              debug::next_line_with_code(program, line)}) {
+            if (one > 0) near += fmt::format("{}{}", near.empty() ? "" : " and ", one + told);
         }
-        const std::string file =
-            first ? std::filesystem::path(first->first).filename().string() : node.name;
         return refuse(Code::NotFound, wish.wish,
                       fmt::format("{} has no code at line {} of {}; the nearest with code: {}",
-                                  label_of(node), wish.line, file, near.empty() ? "none" : near));
+                                  label_of(node), line + told, of_script ? "its script" : file,
+                                  near.empty() ? "none" : near));
     }
     Point point{.wish = 0,
                 .pc = static_cast<uint16_t>(pc),

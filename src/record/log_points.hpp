@@ -42,6 +42,9 @@ constexpr size_t kLogListShown = 32;  // words of an array in a line for people
 struct LogWish {
     std::string where;
     std::string values;
+    // The last part of the path of the script; sentences then count its lines as an editor does
+    // that shows one script of several. Empty: whichever, and sentences count lines of the file.
+    std::string file = {};
 };
 
 struct LoggedValue {

@@ -232,10 +232,11 @@ TEST(LogPoints, AnElementIsTakenWithWhatItWrites) {
 
 // ---- refused ----
 
-std::string refusal(const std::string& where, const std::string& values) {
+std::string refusal(const std::string& where, const std::string& values,
+                    const std::string& file = "") {
     static Prepared prepared;
     const auto points =
-        LogPoints::set({{where, values}}, {&prepared.session(), &prepared.plan->graph()}, {});
+        LogPoints::set({{where, values, file}}, {&prepared.session(), &prepared.plan->graph()}, {});
     return points.ok() ? "" : points.error().what;
 }
 
@@ -262,6 +263,16 @@ TEST(LogPoints, WhatIsNotThereIsRefused) {
     EXPECT_THAT(refusal("drive:1", "token"),
                 HasSubstr("drive has no code at line 1 of carbot.aesl; the nearest with code: "));
     EXPECT_THAT(refusal("drive:9000", "token"), HasSubstr("has no code at line 9000"));
+}
+
+// As an editor counts that shows the script of one node: drive's begins at line 61 of the file.
+TEST(LogPoints, LinesOfAScriptAreToldAsItsEditorCounts) {
+    EXPECT_EQ(refusal("drive:61", "token", "carbot.aesl"),
+              "--log drive:61: drive has no code at line 1 of its script; the nearest with code: "
+              "10");
+    EXPECT_EQ(refusal("drive:70", "token", "other.aesl"),
+              "--log drive:70: in the recorded run drive had the script of carbot.aesl, not of "
+              "other.aesl");
 }
 
 TEST(LogPoints, ValuesOfAScriptAreChecked) {

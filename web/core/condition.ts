@@ -31,6 +31,28 @@ export function mistakeIn(condition: string): string {
   return state.open.length > 0 ? `expected “${state.open.at(-1)}” at the end` : '';
 }
 
+/** The same of several, with commas between them. */
+export function mistakeInList(values: string): string {
+  for (const one of partsOf(values)) {
+    const wrong = one.trim() === '' ? 'expected a value between commas' : mistakeIn(one);
+    if (wrong) return wrong;
+  }
+  return '';
+}
+
+/** At commas outside of brackets and quotes. */
+function partsOf(values: string): string[] {
+  const parts = [''];
+  let depth = 0;
+  for (const token of values.match(/"[^"]*"|'[^']*'|[^]/g) ?? []) {
+    if ('(['.includes(token)) depth++;
+    if (')]'.includes(token)) depth--;
+    if (token === ',' && depth <= 0) parts.push('');
+    else parts.push((parts.pop() ?? '') + token);
+  }
+  return parts;
+}
+
 function take(state: State, token: string, is: Record<string, string | undefined>): string {
   const wrong =
     is['bracket'] !== undefined

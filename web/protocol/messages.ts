@@ -436,6 +436,90 @@ export interface WhyLink {
   root: boolean;
 }
 
+/** One thing of two runs, followed until they differ. */
+export interface ComparedLane {
+  /** a channel of the recordings; /world/poses and a robot or object; end */
+  name: string;
+  /** values */
+  compared: number;
+  /** of the first difference, from where the two are aligned; missing: there is none */
+  t?: number;
+  /** in what was recorded: set.token; empty: all of it */
+  place?: string;
+  /** as JSON; empty: nothing was there */
+  a?: string;
+  b?: string;
+}
+
+/** What one of two runs is drawn from. Times are those of that run. */
+export interface ComparedRun {
+  /** of its recording */
+  path: string;
+  /** the instant at which it is aligned */
+  start: number;
+  end: number;
+  /** it has ended */
+  complete: boolean;
+  actors: ComparedActor[];
+  /** that supervisors raised */
+  events: ComparedEvent[];
+  ways: ComparedWay[];
+  /** actors and events that are left out */
+  more: number;
+}
+
+/** An actor while it was active. */
+export interface ComparedActor {
+  name: string;
+  /** 0: of the outermost plan */
+  level: number;
+  from: number;
+  to: number;
+}
+
+/** An event that a supervisor raised. */
+export interface ComparedEvent {
+  name: string;
+  supervisor: string;
+  t: number;
+}
+
+/** Where a robot went. */
+export interface ComparedWay {
+  robot: string;
+  length: number;
+  /** of its hull */
+  width: number;
+  /** t, x, y, angle of each */
+  points: number[];
+}
+
+/** A thing in the world, from above. */
+export interface ComparedShape {
+  round: boolean;
+  at: Point;
+  angle: number;
+  /** of a disc its diameter */
+  size: number[];
+}
+
+/** What two runs were started with that is not the same. */
+export interface StartedApart {
+  what: string;
+  /** as JSON; of a file its bytes; empty: there is none */
+  a: string;
+  b: string;
+}
+
+/** What a log point found when it was reached. */
+export interface LogHit {
+  t: number;
+  /** NODE:LINE of the file, with the robot before it where there are several; empty: of the plan */
+  where: string;
+  /** in the order of the names; an array as [1, 2, 3] */
+  values: string[];
+}
+
 /** A test of behaviour, as it is run. */
 export interface TestRun {
   path: Path;
@@ -1751,6 +1835,51 @@ export interface Commands {
     /** the newest first */
     chain: WhyLink[];
   } };
+  /** What variables held each time that a line of a script or an element of the plan was reached in the run that is shown: it is run again from its recording, all of it, which changes nothing. Of a run that goes on there is what is recorded by now. */
+  'log.ask': { in: {
+    /** for log.cancel, of the client's choice */
+    number: number;
+    doc: Doc;
+    /** of a script; it is reached as by a breakpoint there */
+    line?: number;
+    /** of a plan: an actor, or a supervisor */
+    element?: string;
+    /** of the element; leave: it ended, or was interrupted */
+    when?: 'enter' | 'leave' | 'raise';
+    /** with commas between them: of a node, variables and expressions in AESL; of a plan, formulas */
+    values: string;
+  }; out: {
+    /** the values as they were asked */
+    names: string[];
+    /** the oldest first */
+    hits: LogHit[];
+    /** that follow these */
+    more: number;
+    /** so far the run was asked */
+    until: number;
+    /** the line of the script as the recording has it; empty: of the plan */
+    text: string;
+  } };
+  /** Two recorded runs side by side: where each lane of them differs first, the earliest before the others, and what both are drawn from. Without a path: the run that is shown, as far as it is recorded. */
+  'runs.compare': { in: {
+    a?: Path;
+    b?: Path;
+    /** what is laid one over the other */
+    align: 'start' | 'actor' | 'event';
+    /** of the actor, which begins first then; of the event */
+    name?: string;
+  }; out: {
+    a: ComparedRun;
+    b: ComparedRun;
+    lanes: ComparedLane[];
+    started: StartedApart[];
+    /** at the beginning of a */
+    scene: ComparedShape[];
+  } };
+  /** A log.ask of this client is not to be answered any more: it fails. */
+  'log.cancel': { in: {
+    number: number;
+  }; out: Record<never, never> };
   /** Puts a robot or an object somewhere else, as a hand would. */
   'world.move': { in: {
     robot?: string;
@@ -2125,6 +2254,14 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
   HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   WhyLink: { t: 'number', what: 'line(1000)', value: 'line(1000)', place: 'line(1200)', doc: 'Doc?', line: 'int(1..10000000)?', element: 'line(256)?', root: 'bool' },
+  ComparedLane: { name: 'line(256)', compared: 'number', t: 'number?', place: 'line(1000)?', a: 'line(1000)?', b: 'line(1000)?' },
+  ComparedRun: { path: 'line(1024)', start: 'number', end: 'number', complete: 'bool', actors: '[ComparedActor; 5000]', events: '[ComparedEvent; 5000]', ways: '[ComparedWay; 64]', more: 'number' },
+  ComparedActor: { name: 'line(256)', level: 'int(0..1000)', from: 'number', to: 'number' },
+  ComparedEvent: { name: 'line(256)', supervisor: 'line(256)', t: 'number' },
+  ComparedWay: { robot: 'line(256)', length: 'number', width: 'number', points: '[number; 8000]' },
+  ComparedShape: { round: 'bool', at: 'Point', angle: 'number', size: '[number; 2]' },
+  StartedApart: { what: 'line(1000)', a: 'line(1000)', b: 'line(1000)' },
+  LogHit: { t: 'number', where: 'line(256)', values: '[line(1000); 16]' },
   TestRun: { path: 'Path', runs: 'number', done: 'number', failed: 'number', why: 'line(2000)?', at: 'Place?', failures: '[TestFailure; 100]' },
   TestFailure: { seed: 'number', t: 'number?', at: 'Place?', expected: 'line(1000)?', what: 'line(2000)', help: 'line(500)?', recording: 'Path?' },
   CoverageRow: { path: 'Path', kinds: '[CoverageShare; 8]' },
@@ -2281,6 +2418,9 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'tests.run': { may: 'driver', kind: 'act', out: {} },
   'tests.stop': { may: 'driver', kind: 'edit', out: {} },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
+  'log.ask': { may: 'look', kind: 'look', out: { names: '[line(1000); 16]', hits: '[LogHit; 5000]', more: 'number', until: 'number', text: 'line(1000)' } },
+  'runs.compare': { may: 'look', kind: 'look', out: { a: 'ComparedRun', b: 'ComparedRun', lanes: '[ComparedLane; 1000]', started: '[StartedApart; 1000]', scene: '[ComparedShape; 2000]' } },
+  'log.cancel': { may: 'look', kind: 'look', out: {} },
   'world.move': { may: 'driver', kind: 'act', out: {} },
   'world.put': { may: 'driver', kind: 'act', out: { number: 'number' } },
   'world.take': { may: 'driver', kind: 'act', out: {} },

@@ -2,6 +2,8 @@
 
 #include "cli/host_verb.hpp"
 #include "cli/output.hpp"
+#include "serve/runner/compare_host.hpp"
+#include "serve/runner/log_host.hpp"
 #include "serve/runner/runner.hpp"
 #include "serve/runner/try_host.hpp"
 #include "serve/runner/why_host.hpp"
@@ -19,6 +21,16 @@ void add_runner(CLI::App& app, int& exit_code) {
 void add_why_host(CLI::App& app, int& exit_code) {
     add_host_verb(app, {"why-host", "a question about a run of the studio"}, serve::run_why,
                   exit_code);
+}
+
+void add_log_host(CLI::App& app, int& exit_code) {
+    add_host_verb(app, {"log-host", "log points put into a run of the studio"}, serve::run_log,
+                  exit_code);
+}
+
+void add_compare_host(CLI::App& app, int& exit_code) {
+    add_host_verb(app, {"compare-host", "two runs that are compared in the studio"},
+                  serve::run_compare, exit_code);
 }
 
 void add_try_host(CLI::App& app, int& exit_code) {

@@ -1,5 +1,6 @@
-// The verbs `run-host`, `why-host` and `try-host`, which --help does not show: a run, a question
-// about one, and a plan that is tried, as processes of their own, started by the studio's server.
+// The verbs `run-host`, `why-host`, `log-host`, `compare-host` and `try-host`, which --help does
+// not show: a run, questions about one or two, and a plan that is tried, as processes of their own,
+// started by the studio's server.
 #pragma once
 
 namespace CLI {
@@ -10,6 +11,8 @@ namespace vagus::cli {
 
 void add_runner(CLI::App& app, int& exit_code);
 void add_why_host(CLI::App& app, int& exit_code);
+void add_log_host(CLI::App& app, int& exit_code);
+void add_compare_host(CLI::App& app, int& exit_code);
 void add_try_host(CLI::App& app, int& exit_code);
 
 }  // namespace vagus::cli

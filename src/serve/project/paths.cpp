@@ -62,6 +62,11 @@ Status check_path(std::string_view path) {
     return refuse(malformed_utf8_at(path) ? "" : path, *why);
 }
 
+bool is_end_of(std::string_view end, std::string_view path) {
+    if (!path.ends_with(end)) return false;
+    return path.size() == end.size() || path[path.size() - end.size() - 1] == '/';
+}
+
 Result<fs::path> path_in(const fs::path& root, std::string_view path) {
     TRY(check_path(path));
     std::error_code failed;

@@ -21,6 +21,9 @@ Status check_path(std::string_view path);
 // Why it is none, without the path.
 std::optional<std::string> fault_of_path(std::string_view path);
 
+// One of two paths is the end of the other, from a folder on.
+bool is_end_of(std::string_view end, std::string_view path);
+
 // Where it leads. Fails if that is outside of `root`.
 Result<std::filesystem::path> path_in(const std::filesystem::path& root, std::string_view path);
 

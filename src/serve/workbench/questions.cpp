@@ -14,6 +14,18 @@ void Questions::ask(const Call& call, const Json& question, Then then) {
     asked_.push_back({call, std::move(child.value()), std::move(then), std::nullopt});
 }
 
+void fail_cancelled(const Call& call) {
+    call.fail("unavailable", "the question was cancelled");
+}
+
+void Questions::cancel(const std::function<bool(const Call& call)>& is_meant) {
+    std::erase_if(asked_, [&](const Asked& one) {
+        if (!is_meant(one.call)) return false;
+        fail_cancelled(one.call);
+        return true;
+    });
+}
+
 void Questions::tick(Time now) {
     now_ = now;
     std::erase_if(asked_, [&](Asked& one) { return look(one, now); });

@@ -19,6 +19,9 @@
 
 namespace vagus::serve {
 
+// How a call fails that was cancelled.
+void fail_cancelled(const Call& call);
+
 struct QuestionRules {
     std::string program;  // vagus
     std::string verb;     // of its process
@@ -39,6 +42,8 @@ public:
 
     // Where there is no answer the call fails.
     void ask(const Call& call, const Json& question, Then then);
+    // These are not to be answered any more: their processes end, and their calls fail.
+    void cancel(const std::function<bool(const Call& call)>& is_meant);
     // That wait for their answers.
     size_t count() const { return asked_.size(); }
 

@@ -122,6 +122,11 @@ void Workbench::record_script(uint16_t node, const std::string& name) {
     if (text.ok()) run_.script_loaded(node, project_->real(part->file), text.value());
 }
 
+ShownRun Workbench::shown_run() {
+    return {.file = [this] { return recording_of_run(); },
+            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }};
+}
+
 Result<std::string> Workbench::recording_of_run() const {
     if (bus_) {
         return Error{Code::Unavailable,
@@ -131,6 +136,11 @@ Result<std::string> Workbench::recording_of_run() const {
     const std::string path = recordings_.of_run(run_.time() > 0);
     std::error_code failed;
     if (!path.empty() && std::filesystem::exists(path, failed)) return path;
+    if (!path.empty() && run_.time() > 0) {
+        return Error{Code::NotFound, with_short_paths(path) +
+                                         ": the recording of this run is not there any more; "
+                                         "Run makes a new one"};
+    }
     return Error{Code::Unavailable,
                  "nothing has run yet, so there is nothing to ask about; Run "
                  "starts it"};
@@ -144,21 +154,25 @@ void Workbench::open_recording(const Call& call) {
         return call.fail("unavailable", "a recorded run is run again by the simulator; choose it");
     }
     const std::string path = call.in["path"];
-    // Folders whose names begin with a dot are not among the files of a project.
-    if (!files_.exists(path) && !recordings_.keeps(project_->real(path)) &&
-        !tests_.has_recording(path)) {
-        return call.fail("not_found", path + ": there is no such file");
-    }
+    const auto file = recording_at(path);
+    if (!file.ok()) return call.fail(file.error());
     if (!save_all(call)) return;
     using Read = Result<record::PastRun>;
     worked<Read>(
-        worker_.poster(),
-        [file = project_->real(path)] { return record::read_past(file, std::nullopt); },
+        worker_.poster(), [file = file.value()] { return record::read_past(file, std::nullopt); },
         [this, call, path](const Read& past) {
             if (!project_ || bus_) return call.fail("unavailable", "the project was closed");
             past.ok() ? relive(call, project_->real(path), past.value())
                       : call.fail("bad_input", with_short_paths(past.error().what));
         });
+}
+
+Result<std::string> Workbench::recording_at(const std::string& path) const {
+    if (!project_) return Error{Code::Unavailable, "no project is open; open one first"};
+    std::string file = project_->real(path);
+    // Folders whose names begin with a dot are not among the files of a project.
+    if (files_.exists(path) || recordings_.keeps(file) || tests_.has_recording(path)) return file;
+    return Error{Code::NotFound, path + ": there is no such file"};
 }
 
 void Workbench::list_recordings(const Call& call) {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <optional>
 
-#include "serve/edit/test_page.hpp"
+#include "serve/workbench/test_other_end.hpp"
 
 namespace vagus::serve {
 namespace {
@@ -17,16 +17,13 @@ const std::string kPlan = R"({"format": "vagus-plan/1", "name": "P", "start": {"
                         "states": {"Done": "@terminate"}}}})";
 
 // The other end is a script: what vagus does is tested in try_host_test.cpp.
-class TryDeskTest : public EditTest {
+class TryDeskTest : public OtherEndTest {
 protected:
     TryDeskTest() {
         write("P.plan.json", kPlan);
         enter({.plan = "P.plan.json"});
     }
     TryDesk& desk_with(const std::string& script) {
-        write("other-end", "#!/bin/sh\n" + script);
-        const auto path = root / "other-end";
-        std::filesystem::permissions(path, std::filesystem::perms::owner_all);
         const TryDesk::Project project = {
             .toolboxes = [] { return std::vector<std::string>{}; },
             .real = [this](const std::string& doc) { return (root / doc).string(); },
@@ -35,19 +32,14 @@ protected:
                 [](const std::string&, const std::string&) {
                     return Result<std::string>(std::string("P.test.json"));
                 }};
-        tries.emplace(desk, files, path.string(), project);
+        tries.emplace(desk, files, other_end(script), project);
         return *tries;
     }
     void hear(const std::string& doc = "P.plan.json") {
-        const Json in = {{"doc", doc}, {"way", Json::array()}};
-        desk.hear(ClientText{{1}, Json{{"id", ++id}, {"do", "plan.try"}, {"in", in}}.dump()}, now);
+        tell("plan.try", {{"doc", doc}, {"way", Json::array()}});
     }
-    // The sentence of a refusal.
     std::string refused() {
-        const Json* answer = nullptr;
-        while (!(answer = answered())) tries->tick(now);
-        return answer->contains("error") ? answer->at("error").at("what").get<std::string>()
-                                         : answer->dump();
+        return OtherEndTest::refused([this](Time at) { tries->tick(at); });
     }
 
     std::optional<TryDesk> tries;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "serve/edit/text_places.hpp"
+#include "serve/project/paths.hpp"
 #include "serve/runner/why_host.hpp"
 
 namespace vagus::serve {
@@ -19,17 +20,11 @@ std::string text_in(const Json& link, const char* key, size_t most) {
     return line_of(link.value(key, ""), most);
 }
 
-// One path is the end of the other, from a folder on.
-bool is_end_of(const std::string& end, const std::string& path) {
-    return path == end || path.ends_with("/" + end);
-}
-
 }  // namespace
 
-WhyDesk::WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, Run run)
+WhyDesk::WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, ShownRun run)
     : files_(files),
       scripts_(scripts),
-      run_(std::move(run)),
       questions_({.program = std::move(program),
                   .verb = "why-host",
                   .kind = kWhyAsked,
@@ -40,7 +35,8 @@ WhyDesk::WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program
                   .died = "the run could not be run again",
                   .late = fmt::format("to run this run again takes longer than {} s; ask "
                                       "`vagus why` in a terminal",
-                                      seconds_of(kWhyWithin))}) {
+                                      seconds_of(kWhyWithin))},
+                 kWhysAtOnce, std::move(run)) {
     desk.command("why.ask", [this](const Call& call) { ask(call); });
 }
 
@@ -51,25 +47,12 @@ void WhyDesk::ask(const Call& call) {
                          "in.name: expected the name of what is asked about, found "
                          "none");
     }
-    if (questions_.count() + flushing_ >= kWhysAtOnce) {
-        return call.fail(
-            "limit", fmt::format("{} questions are being answered; wait for them", kWhysAtOnce));
-    }
-    const auto file = run_.file();
-    if (!file.ok()) return call.fail(file.error());
-    ++flushing_;
-    run_.flush([this, call, path = file.value()] {
-        --flushing_;
-        start(call, path);
-    });
-}
-
-void WhyDesk::start(const Call& call, const std::string& file) {
     Json question = Json::array({call.in["about"]});
     if (call.in["about"] != "end") question.push_back(call.in["name"]);
-    Json asked = {{"file", file}, {"question", std::move(question)}};
+    Json asked = {{"question", std::move(question)}};
     if (call.in.contains("t")) asked["at"] = call.in["t"];
-    questions_.ask(call, asked, [this, call](const Json& answer) { tell(call, answer); });
+    questions_.ask(call, std::move(asked),
+                   [this, call](const Json& answer) { tell(call, answer); });
 }
 
 void WhyDesk::tell(const Call& call, const Json& answered) {

@@ -5,17 +5,15 @@
 //     whys.tick(now);
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
-#include "base/result.hpp"
 #include "base/time.hpp"
 #include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
-#include "serve/workbench/questions.hpp"
+#include "serve/workbench/run_questions.hpp"
 
 namespace vagus::serve {
 
@@ -26,15 +24,8 @@ constexpr size_t kWhyMemoryMax = size_t{2} << 30;
 
 class WhyDesk {
 public:
-    struct Run {
-        // The recording of the run that is shown. The Error says why it has none.
-        std::function<Result<std::string>()> file;
-        // Tells when all that has happened by now is in it.
-        std::function<void(std::function<void()> done)> flush;
-    };
-
     // Borrowed. Declares its command.
-    WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, Run run);
+    WhyDesk(Desk& desk, Files& files, Scripts& scripts, std::string program, ShownRun run);
 
     void tick(Time now) { questions_.tick(now); }
     Time next_tick() const { return questions_.next_tick(); }
@@ -49,15 +40,12 @@ private:
     };
 
     void ask(const Call& call);
-    void start(const Call& call, const std::string& file);
     void tell(const Call& call, const Json& answered);
     std::optional<Spot> spot_of(const std::string& place);
 
     Files& files_;
     Scripts& scripts_;
-    const Run run_;
-    Questions questions_;
-    size_t flushing_ = 0;
+    RunQuestions questions_;
 };
 
 }  // namespace vagus::serve

@@ -34,10 +34,11 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
       run_(desk, places.runner ? places.runner : start_runner(places.program)),
       worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()),
-      whys_(
-          desk, files_, scripts_, places.program,
-          {.file = [this] { return recording_of_run(); },
-           .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }}),
+      whys_(desk, files_, scripts_, places.program, shown_run()),
+      logs_(desk, scripts_, places.program, shown_run()),
+      pairs_(desk, places.program, shown_run(),
+             {.recording_at = [this](const std::string& path) { return recording_at(path); },
+              .doc_of = [this](const std::string& file) { return doc_of(file); }}),
       compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
       tries_(desk, files_, places.program,
              {.toolboxes = [this] { return toolboxes_on_disk(); },
@@ -423,6 +424,8 @@ void Workbench::tick(Time now) {
     tick_life();
     worker_.tick();
     whys_.tick(now);
+    logs_.tick(now);
+    pairs_.tick(now);
     compares_.tick(now);
     tries_.tick(now);
     tests_.tick(now);
@@ -449,8 +452,8 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min(
-        {next, whys_.next_tick(), compares_.next_tick(), tries_.next_tick(), tests_.next_tick()});
+    next = std::min({next, whys_.next_tick(), logs_.next_tick(), pairs_.next_tick(),
+                     compares_.next_tick(), tries_.next_tick(), tests_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

@@ -38,7 +38,9 @@
 #include "serve/workbench/history_desk.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/library.hpp"
+#include "serve/workbench/log_desk.hpp"
 #include "serve/workbench/opened.hpp"
+#include "serve/workbench/pair_desk.hpp"
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
 #include "serve/workbench/targets.hpp"
@@ -194,7 +196,9 @@ private:
     void continue_from(const Call& call);
     void continue_run(const Call& call, const std::string& recording);
     void record_script(uint16_t node, const std::string& name);
+    ShownRun shown_run();
     Result<std::string> recording_of_run() const;
+    Result<std::string> recording_at(const std::string& path) const;
     void begin_past(const Call& call, RunOrder order, bool go);
     void list_recordings(const Call& call);
     void open_recording(const Call& call);
@@ -288,6 +292,8 @@ private:
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
     std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
+    LogDesk logs_;
+    PairDesk pairs_;
     CompareDesk compares_;
     TryDesk tries_;
     TestDesk tests_;

@@ -15,7 +15,7 @@ export function editCommands(studio: Studio): Command[] {
   const make = (
     id: EditId,
     keys: string[],
-    act: Exclude<keyof EditorHandle, 'word'>,
+    act: Exclude<keyof EditorHandle, 'word' | 'line'>,
     may: () => boolean,
   ): Command => ({
     id,

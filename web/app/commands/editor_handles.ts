@@ -15,6 +15,8 @@ export interface EditorHandle {
   focus(): void;
   /** Where the caret is, while the editor has the focus; '' if there is none. */
   word(): string;
+  /** Where the caret is, from 1. */
+  line(): number;
 }
 
 const handles = new WeakMap<Studio, Map<Doc, EditorHandle>>();

@@ -4,6 +4,8 @@ import type { Studio } from '../../core/studio';
 import { revealDoc, revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
 import { askWhy } from './ask_why';
+import { shownEditor } from './editor_handles';
+import { canLog, logAt } from './log_values';
 import { drives } from './looks';
 
 const titles = text.commands;
@@ -97,6 +99,17 @@ export function pastCommands(studio: Studio): Command[] {
       run: () => askWhy(studio, 'end'),
     },
     {
+      id: 'past.log',
+      title: titles['past.log'],
+      group,
+      keys: ['Shift+F9'],
+      enabled: () => canLog(studio) && scriptLine(studio) !== null,
+      async run() {
+        const at = scriptLine(studio);
+        if (at) await logAt(studio, { is: 'line', ...at });
+      },
+    },
+    {
       id: 'test.keep',
       title: titles['test.keep'],
       group,
@@ -118,6 +131,13 @@ export function pastCommands(studio: Studio): Command[] {
       },
     },
   ];
+}
+
+/** Where the caret is; null: in no script. */
+function scriptLine(studio: Studio): { doc: string; line: number } | null {
+  const { doc } = studio.window.getState();
+  const line = doc?.includes('#') ? shownEditor(studio)?.line() : undefined;
+  return doc === null || line === undefined ? null : { doc, line };
 }
 
 /** The run begins again, comes to that instant, and goes another way from there. */

@@ -4,10 +4,8 @@ import { isTest } from '../../core/paths';
 import type { Studio } from '../../core/studio';
 import { testOptionsOf } from '../../core/tests';
 import { revealDoc, revealPanel } from '../../core/window_state';
-import type { Path, TestFailure, Topics } from '../../protocol/messages';
-
-/** How long a recording that is opened may take to come to its end. */
-const kOpenMs = 60_000;
+import type { Path, TestFailure } from '../../protocol/messages';
+import { lookIntoRecording } from './look_into_recording';
 
 /** The test that is looked at: the row of the tree that has the keyboard, else the document. */
 export function testMeant(studio: Studio): Path | null {
@@ -36,17 +34,11 @@ export function showExpectation(studio: Studio, path: Path, { at }: TestFailure)
 /** Runs the recorded run again, and shows the instant at which it failed. */
 export async function openFailure(studio: Studio, failure: TestFailure): Promise<void> {
   if (failure.recording === undefined) return;
-  const before = studio.topics.get('history', {})?.run;
-  await studio.send('recording.open', { path: failure.recording });
-  // The list stays in sight, with the keyboard in it: the drawing shows what happened.
-  const plan = studio.topics.get('plan', {})?.doc;
-  if (plan !== undefined) revealDoc(studio.window, plan, null, false);
-  const { t } = failure;
-  if (t === undefined) return;
-  // It is told from its beginning on, as fast as it is run again.
-  const isThere = (is: Topics['history']['is']) => is.run !== before && is.to >= t;
-  const known = await studio.topics.until('history', {}, isThere, kOpenMs);
-  if (known && isThere(known)) studio.past.look(t);
+  await lookIntoRecording(studio, failure.recording, failure.t, () => {
+    // The list stays in sight, with the keyboard in it: the drawing shows what happened.
+    const plan = studio.topics.get('plan', {})?.doc;
+    if (plan !== undefined) revealDoc(studio.window, plan, null, false);
+  });
 }
 
 /** The same run from its beginning, live: with its seed and its place. */

@@ -153,6 +153,21 @@ export const panels: readonly Panel[] = [
     view: late(() => import('../panels/why/why_panel')),
   },
   {
+    id: 'runs',
+    like: 'documents',
+    title: text.panels.runs,
+    icon: IconTimeline,
+    view: late(() => import('../panels/runs/runs_panel')),
+  },
+  {
+    id: 'logs',
+    least: 220,
+    title: text.panels.logs,
+    icon: IconList,
+    view: late(() => import('../panels/logs/logs_panel')),
+    tools: late(() => import('../panels/logs/logs_tools'), 'button'),
+  },
+  {
     id: 'tests',
     least: 240,
     title: text.panels.tests,

@@ -1,4 +1,7 @@
 // Runs of the simulator in the studio.
+import assert from 'node:assert/strict';
+import { readdirSync } from 'node:fs';
+import { join } from 'node:path';
 import { seen } from './studio.mjs';
 /** @import { Studio } from './studio.mjs' */
 
@@ -14,4 +17,14 @@ export async function runTo(
   await page.getByRole('menuitem', { name: /As fast as/i }).click();
   await press('F5');
   await seen(page.getByText(`Paused by the breakpoint ${actor}`));
+}
+
+/** The recording of the run that is shown. */
+export function lastRecording(/** @type {string} */ folder) {
+  const number = (/** @type {string} */ one) => Number(/run-(\d+)\.mcap$/.exec(one)?.[1] ?? 0);
+  const [last] = readdirSync(folder, { recursive: true, encoding: 'utf8' })
+    .filter((one) => number(one) > 0)
+    .sort((one, other) => number(other) - number(one));
+  assert.ok(last, 'a run was recorded');
+  return join(folder, last);
 }

@@ -1,10 +1,12 @@
 import { Menu } from '@mantine/core';
 import { IconHistory } from '@tabler/icons-react';
 import { useState } from 'react';
+import { compareRuns } from '../../commands/compare_runs';
 import { openRecording } from '../../commands/past_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
+import { recordedAt } from '../../parts/recorded_at';
 import { useAsked } from '../../use_asked';
 import { words } from './words';
 
@@ -49,12 +51,13 @@ function Recordings() {
           rightSection={<span className="muted num">{words.size(bytes)}</span>}
           onClick={() => void openRecording(studio, path)}
         >
-          {words.run(number, timeOf(when_wall))}
+          {words.run(number, recordedAt(when_wall))}
         </Menu.Item>
       ))}
+      <Menu.Divider />
+      <Menu.Item onClick={() => void compareRuns(studio, recordings?.[0]?.path ?? null)}>
+        {words.compare}
+      </Menu.Item>
     </>
   );
 }
-
-const timeOf = (wall: number): string =>
-  new Date(wall).toLocaleString('en-GB', { dateStyle: 'medium', timeStyle: 'short' });

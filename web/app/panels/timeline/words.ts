@@ -28,6 +28,7 @@ export const words = {
   asks: 'Looking for recordings…',
   noEarlier: 'No run before this one is recorded.',
   run: (number: number, when: string) => `Run ${number}, until ${when}`,
+  compare: 'Compare with…',
   size: (bytes: number) => `${(bytes / 1e6).toFixed(1)} MB`,
   save: 'Save the trace as a file of the project',
 };

@@ -4,6 +4,7 @@ import { isTest } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
 import { copyText } from '../../commands/clipboard';
+import { compareRuns } from '../../commands/compare_runs';
 import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
@@ -55,6 +56,11 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
           <WhyItem why={why} onClick={runTest}>
             {test.title}
           </WhyItem>
+        ) : null}
+        {row.path.endsWith('.mcap') ? (
+          <Menu.Item onClick={() => void compareRuns(studio, row.path)}>
+            {text.tree.compare}
+          </Menu.Item>
         ) : null}
         {isFile ? <Menu.Item onClick={beside}>{text.commands['view.side']}</Menu.Item> : null}
         {row.kind === 'script' ? (

@@ -1,6 +1,7 @@
 import { useState } from 'react';
 import { mistakeIn } from '../../../core/condition';
 import type { Doc } from '../../../protocol/messages';
+import { canLog, logAt } from '../../commands/log_values';
 import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { useTyped } from '../../parts/use_draft';
@@ -80,6 +81,14 @@ export function BreakpointForm({ doc, line, onEnd }: { doc: Doc; line: number; o
         </p>
       ) : null}
       <div className="form__end">
+        <Button
+          kind="plain"
+          disabled={!canLog(studio)}
+          keys="Shift+F9"
+          onClick={() => (void logAt(studio, { is: 'line', doc, line }), onEnd())}
+        >
+          {text.commands['past.log']}
+        </Button>
         {there ? (
           <Button onClick={() => (studio.order('break.clear', { doc, line }), onEnd())}>
             {words.clear}

@@ -196,6 +196,7 @@ function useHandle(doc: Doc, view: EditorView | null): void {
         find: () => void openSearchPanel(view),
         comment: () => void toggleComment(view),
         focus: () => view.focus(),
+        line,
         word: () => {
           const { text, from } = view.state.doc.lineAt(head());
           return view.hasFocus ? wordAt(text, head() - from) : '';

@@ -4,6 +4,7 @@ import { placeOf } from '../../../../core/plan/breaks';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { revealDoc, toast } from '../../../../core/window_state';
+import { canLog, logAt } from '../../../commands/log_values';
 import { drives } from '../../../commands/looks';
 import { text } from '../../../text';
 import { drawWords } from '../words';
@@ -19,6 +20,15 @@ export function debugCommands(studio: Studio, properties: () => void): Command[]
   const isPlace = () => {
     const board = shown()?.board;
     return drives(studio) && board !== undefined && placeOf(board.model, key()) !== null;
+  };
+  const logPlace = () => {
+    const board = shown()?.board;
+    const place = board ? placeOf(board.model, board.selected) : null;
+    if (!board || !place || place.kind === 'condition') return null;
+    const { element } = place;
+    return place.kind === 'event'
+      ? ({ is: 'supervisor', doc: board.doc, element, when: 'raise' } as const)
+      : ({ is: 'actor', doc: board.doc, element, when: 'enter' } as const);
   };
   const group = text.groups.draw;
   const starts = () => shown()?.board.element(shown()?.board.selected ?? null)?.known?.starts ?? [];
@@ -54,6 +64,18 @@ export function debugCommands(studio: Studio, properties: () => void): Command[]
         const board = shown()?.board;
         const at = key();
         if (board && at !== null) toggleBreak(studio, board, at);
+      },
+    },
+    {
+      id: 'draw.log',
+      title: titles['draw.log'],
+      group,
+      within: 'plan',
+      keys: ['Shift+F9'],
+      enabled: () => canLog(studio) && logPlace() !== null,
+      async run() {
+        const place = logPlace();
+        if (place) await logAt(studio, place);
       },
     },
     {

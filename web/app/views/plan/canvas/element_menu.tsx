@@ -5,7 +5,7 @@ import { drawWords } from '../words';
 import type { MenuAt } from './use_element_menu';
 import { planWords } from '../live_words';
 
-const debugging = ['draw.break', 'draw.breakEdit', 'draw.into', 'draw.script'];
+const debugging = ['draw.break', 'draw.breakEdit', 'draw.log', 'draw.into', 'draw.script'];
 const editing = [
   'draw.open',
   'draw.properties',

@@ -1,0 +1,77 @@
+#include "record/log_run.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/seconds.hpp"
+#include "embed/loaded_plan.hpp"
+#include "record/compare_tape.hpp"
+#include "record/past_run.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+// Whether all that was asked for is there: asked once, as soon as it can be known.
+class Places {
+public:
+    Places(const LogPoints& points, Rerun& rerun, const LogRun& wanted)
+        : points_(points), rerun_(rerun), wanted_(wanted) {}
+
+    void look() {
+        if (!known_ && points_.settled()) ask();
+    }
+    const Status& ask() {
+        if (!known_) {
+            known_ = points_.check();
+            if (known_->ok()) known_ = wanted_.settled(rerun_);
+        }
+        return *known_;
+    }
+    bool are_missing() const { return known_ && !known_->ok(); }
+
+private:
+    const LogPoints& points_;
+    Rerun& rerun_;
+    const LogRun& wanted_;
+    std::optional<Status> known_;
+};
+
+Error not_the_same(const Difference& found) {
+    return {Code::Refused,
+            fmt::format("the run does not come out as it was recorded: it differs at {} s in {}; "
+                        "another version of Vagus has recorded it, or a file is damaged "
+                        "(`vagus replay` says more)",
+                        seconds_text(found.at), found.topic)};
+}
+
+}  // namespace
+
+Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
+    RerunOptions how;
+    if (!reader.is_complete()) how.until = end_of(reader);
+    const Time until = how.until.value_or(Time::max());
+    const std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, how));
+    const LogPoints::Run run{rerun->session(),
+                             rerun->plan() != nullptr ? &rerun->plan()->graph() : nullptr};
+    const auto wishes = TRY(wanted.wishes(*rerun));
+    const auto points = TRY(LogPoints::set(wishes, run, wanted.told));
+    CompareTape tape(reader, {}, until);
+    Places places(*points, *rerun, wanted);
+    rerun->listen([&points](const plan::TraceEvent& event) { points->see(event); });
+    rerun->each_instant([&](Time at) {
+        places.look();
+        if (places.are_missing() || tape.difference()) rerun->stop();
+        if (at >= until) points->close();
+    });
+    const Rerun::Ended ended = TRY(rerun->run(tape));
+    TRY(places.ask());
+    points->close();
+    tape.end();
+    if (tape.difference()) return not_the_same(*tape.difference());
+    return std::min(ended.at, until);
+}
+
+}  // namespace vagus::record

@@ -115,6 +115,8 @@ public:
 protected:
     Rerun(RunFile about, UnpackedFolder folder)
         : about_(std::move(about)), folder_(std::move(folder)) {}
+    // Before anything of it runs.
+    virtual Status prepare() { return Status::done(); }
     // Those up to `from`, what is done there, and those that are done all the same.
     static std::vector<Input> other_inputs(std::vector<Input> recorded,
                                            const RerunOptions& options);
@@ -172,10 +174,6 @@ protected:
     Recorder* recorder_ = nullptr;         // of this run(), while it goes on
     std::string last_check_;               // when it was over
     hub::LinkId outside_;                  // from where frames come again; 0: none came yet
-
-private:
-    friend class PlanRerun;
-    friend class WorldRerun;
 };
 
 }  // namespace vagus::record

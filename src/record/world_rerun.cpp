@@ -1,0 +1,100 @@
+#include "record/world_rerun.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/file.hpp"
+#include "embed/prepared_run.hpp"
+#include "embed/robots_run.hpp"
+#include "record/robot_recorders.hpp"
+#include "session/sim_session.hpp"
+
+namespace vagus::record {
+
+namespace {
+
+class WorldRerun final : public Rerun {
+public:
+    WorldRerun(RunFile about, UnpackedFolder folder) : Rerun(std::move(about), std::move(folder)) {}
+
+    Status prepare() override {
+        const std::string world = folder_.path_of(about_.world);
+        if (is_of_studio()) {
+            own_ = std::make_unique<session::SimSession>(TRY(session::open_sim(world, {})));
+            (void)own_->settle();
+            own_->world().stops_with_nodes();
+            return check_inputs();
+        }
+        embed::RobotsOptions options{.world = world};
+        if (!about_.seed.empty()) options.sim.world.seed = TRY(embed::parse_seed(about_.seed));
+        if (!about_.chaos.empty()) {
+            options.sim.world.chaos = TRY(embed::read_chaos_words(about_.chaos));
+        }
+        robots_ = TRY(embed::RobotsRun::open(options));
+        for (const std::string& one : about_.loads) {
+            const std::string path = folder_.path_of(one);
+            const std::string text = TRY(read_file(path));
+            robots_->buses().common().load(path, text);
+        }
+        return check_inputs();
+    }
+
+    Result<Ended> run(Tape& tape) override {
+        Recorder recorder(tape, format_run(about_));
+        recorder_ = &recorder;
+        recorder.follow(*session());
+        if (robots_) {
+            recorded_.emplace(tape, *robots_);
+            TRY(robots_->start());
+        }
+        Then then = do_inputs(recorder, Ends::Take);
+        recorder.after_instant([&](Time at) {
+            if (then == Then::GoOn) then = after_instant(at, recorder);
+        });
+        while (then == Then::GoOn && session()->now() < end_) {
+            robots_ ? robots_->step(sim::kNodeStep) : own_->step(sim::kNodeStep);
+            const bool next = then == Then::GoOn && comes_between_instants();
+            if (next) then = do_inputs(recorder, Ends::Take);
+        }
+        TRY(changed_);
+        const bool whole = then == Then::Recorded && ends_whole();
+        if (whole || (another_way_ && !stopped_)) {
+            recorder.end(session()->now());
+            if (recorded_) recorded_->end(session()->now());
+        }
+        leave(recorder, session()->now());
+        recorded_.reset();
+        return Ended{session()->now(), "", ""};
+    }
+
+    void listen(std::function<void(const plan::TraceEvent&)>) override {}
+    session::SimSession* session() override {
+        return own_ ? own_.get() : &robots_->buses().common();
+    }
+    session::PlanWorld* plan_world() override { return nullptr; }
+    const embed::LoadedPlan* plan() const override { return nullptr; }
+
+private:
+    InputWhat end_of_run() const override { return RecordingEnds{}; }
+    // Where robots have projects an instant is over when all their buses have had it.
+    bool comes_between_instants() const override {
+        return is_of_studio() || !about_.robots.empty();
+    }
+
+    std::string check_of_robots(Time at) const override {
+        return recorded_ ? recorded_->check_text(at) : "";
+    }
+
+    std::unique_ptr<embed::RobotsRun> robots_;
+    std::optional<RobotRecorders> recorded_;  // during run()
+    std::unique_ptr<session::SimSession> own_;
+};
+
+}  // namespace
+
+std::unique_ptr<Rerun> make_world_rerun(RunFile about, UnpackedFolder folder) {
+    return std::make_unique<WorldRerun>(std::move(about), std::move(folder));
+}
+
+}  // namespace vagus::record

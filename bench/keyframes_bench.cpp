@@ -194,7 +194,7 @@ bool look_at(const Plan& plan) {
 }  // namespace
 
 int main() {
-    const bool minutes = look_at({"ten minutes", 600s, 1000, 5});
-    const bool hour = look_at({"an hour", 3600s, 100, 2});
+    const bool minutes = look_at({"ten minutes", 600s, 200, 3});
+    const bool hour = look_at({"an hour", 3600s, 50, 2});
     return minutes && hour ? 0 : 1;
 }

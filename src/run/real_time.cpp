@@ -539,13 +539,11 @@ void RealTime::Engine::note_lateness(Duration late) {
 
 Lateness RealTime::Engine::lateness() const {
     if (lateness_us_.empty()) return {};
-    std::vector<uint32_t> sorted = lateness_us_;
-    std::sort(sorted.begin(), sorted.end());
-    const auto last = static_cast<double>(sorted.size() - 1);
-    const auto at = [&](double share) {
-        return Duration{sorted[static_cast<size_t>(share * last)]};
-    };
-    return {sorted.size(), at(0.5), at(0.99), at(1.0)};
+    std::vector<uint32_t> us = lateness_us_;
+    std::sort(us.begin(), us.end());
+    const auto last = static_cast<double>(us.size() - 1);
+    const auto at = [&](double share) { return Duration{us[static_cast<size_t>(share * last)]}; };
+    return {us.size(), at(0.5), at(0.99), at(1.0)};
 }
 
 void RealTime::Engine::hand_out_trace() {

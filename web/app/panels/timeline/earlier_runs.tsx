@@ -1,12 +1,11 @@
 import { Menu } from '@mantine/core';
 import { IconHistory } from '@tabler/icons-react';
 import { useState } from 'react';
-import { compareRuns } from '../../commands/compare_runs';
 import { openRecording } from '../../commands/past_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
-import { recordedAt } from '../../parts/recorded_at';
+import { recordedAt } from '../../parts/time_of';
 import { useAsked } from '../../use_asked';
 import { words } from './words';
 
@@ -55,7 +54,13 @@ function Recordings() {
         </Menu.Item>
       ))}
       <Menu.Divider />
-      <Menu.Item onClick={() => void compareRuns(studio, recordings?.[0]?.path ?? null)}>
+      <Menu.Item
+        onClick={() =>
+          void import('../../commands/compare_runs').then(({ compareRuns }) =>
+            compareRuns(studio, recordings?.[0]?.path ?? null),
+          )
+        }
+      >
         {words.compare}
       </Menu.Item>
     </>

@@ -1,7 +1,7 @@
 import { namesIn, pairingOf, type Align } from '../../../core/pairing';
 import { useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
-import { recordedAt } from '../../parts/time_of';
+import { recordedAt } from '../../parts/recorded_at';
 import { useAsked } from '../../use_asked';
 import { runWords as words } from './words';
 

@@ -5,7 +5,7 @@ import { openRecording } from '../../commands/past_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
-import { recordedAt } from '../../parts/time_of';
+import { recordedAt } from '../../parts/recorded_at';
 import { useAsked } from '../../use_asked';
 import { words } from './words';
 

@@ -125,7 +125,7 @@ test('what a plan held, in its drawing', wall, async (studio) => {
     page.getByRole('group', { name: new RegExp(`^${name}, `) });
   // By the menu: an actor, when it ends.
   await element('findWallAngle').click({ button: 'right' });
-  await page.getByRole('menuitem', { name: /log values at the selection/ }).click();
+  await page.getByRole('menuitem', { name: /log values here/ }).click();
   await isTyped(values(page, 'findWallAngle begins'));
   await page.getByRole('combobox', { name: 'When findWallAngle is looked at' }).focus();
   await press('ArrowDown');

@@ -165,7 +165,6 @@ export const panels: readonly Panel[] = [
     title: text.panels.logs,
     icon: IconList,
     view: late(() => import('../panels/logs/logs_panel')),
-    tools: late(() => import('../panels/logs/logs_tools'), 'button'),
   },
   {
     id: 'tests',

@@ -5,6 +5,7 @@ import { useChanges, useStudio } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { kStroke } from '../../parts/icons';
 import { Hits } from './hits';
+import { LogsTools } from './logs_tools';
 import { PointRow } from './point_row';
 import { logWords as words } from './words';
 import '../../look/logs.css';
@@ -41,6 +42,7 @@ export default function LogsPanel() {
           {words.takesLong}
         </p>
       ) : null}
+      <LogsTools />
       {rows.length > 0 ? <Hits rows={rows} /> : null}
     </div>
   );

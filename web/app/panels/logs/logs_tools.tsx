@@ -10,8 +10,8 @@ import { kStroke } from '../../parts/icons';
 import { StudioMenu } from '../../parts/menu';
 import { logWords as words, placeName } from './words';
 
-/** At the head of the panel: the table for other programs. */
-export default function LogsTools() {
+/** Above the hits: the table for other programs. */
+export function LogsTools() {
   const studio = useStudio();
   const logs = logsOf(studio);
   useChanges(logs.changed);
@@ -23,7 +23,7 @@ export default function LogsTools() {
   const copy = () =>
     copyText(studio, csv(), words.copied).catch((problem: unknown) => studio.tell(problem));
   return (
-    <div className="topbar__tools">
+    <div className="logs__tools">
       <StudioMenu
         position="bottom-end"
         button={

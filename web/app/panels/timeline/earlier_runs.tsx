@@ -1,7 +1,6 @@
 import { Menu } from '@mantine/core';
 import { IconHistory } from '@tabler/icons-react';
 import { useState } from 'react';
-import { compareRuns } from '../../commands/compare_runs';
 import { openRecording } from '../../commands/past_commands';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
@@ -55,7 +54,13 @@ function Recordings() {
         </Menu.Item>
       ))}
       <Menu.Divider />
-      <Menu.Item onClick={() => void compareRuns(studio, recordings?.[0]?.path ?? null)}>
+      <Menu.Item
+        onClick={() =>
+          void import('../../commands/compare_runs').then(({ compareRuns }) =>
+            compareRuns(studio, recordings?.[0]?.path ?? null),
+          )
+        }
+      >
         {words.compare}
       </Menu.Item>
     </>

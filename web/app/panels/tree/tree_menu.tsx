@@ -4,7 +4,6 @@ import { isTest } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc } from '../../../core/window_state';
 import { copyText } from '../../commands/clipboard';
-import { compareRuns } from '../../commands/compare_runs';
 import { documentsIn } from '../../documents';
 import { useDrives, useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
@@ -58,7 +57,13 @@ export function TreeMenu({ row, tree, open, onChange }: Props) {
           </WhyItem>
         ) : null}
         {row.path.endsWith('.mcap') ? (
-          <Menu.Item onClick={() => void compareRuns(studio, row.path)}>
+          <Menu.Item
+            onClick={() =>
+              void import('../../commands/compare_runs').then(({ compareRuns }) =>
+                compareRuns(studio, row.path),
+              )
+            }
+          >
             {text.tree.compare}
           </Menu.Item>
         ) : null}

@@ -3,7 +3,7 @@
 // nothing: the variables are those that somebody asks for.
 //
 //     BusRecorder bus(*tape);
-//     bus.begin(project.common);
+//     bus.begin(network.common());
 //     bus.described(at, *network.node(3));
 //     const uint32_t number = bus.frame(at, {.frame = frame});
 //

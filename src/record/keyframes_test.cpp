@@ -30,7 +30,7 @@ std::string explored(Time until, const std::string& file) {
     about.verb = "sim";
     about.world = examples + "arena.world.json";
     about.loads = {examples + "explore.aesl"};
-    auto recording = SimRecording::begin(file, about, files, session, Pace::Waits);
+    auto recording = SimRecording::begin(file, about, files, *robots.value(), Pace::Waits);
     EXPECT_TRUE(recording.ok());
     while (session.now() < until) {
         session.step(7500ms);

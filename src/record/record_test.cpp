@@ -282,7 +282,7 @@ Recorded explore(uint64_t seed, const std::string& file) {
     about.verb = "sim";
     about.world = examples + "arena.world.json";
     about.loads = {examples + "explore.aesl"};
-    auto recording = SimRecording::begin(file, about, files, session, Pace::Waits);
+    auto recording = SimRecording::begin(file, about, files, *robots.value(), Pace::Waits);
     EXPECT_TRUE(recording.ok());
     SplitMix64 random(seed);
     Recorded recorded;

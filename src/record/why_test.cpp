@@ -29,7 +29,7 @@ std::string explored(const std::function<Status(sim::World&)>& act) {
     EXPECT_TRUE(robots.ok());
     session::SimSession& session = robots.value()->buses().common();
     session.load(script, read_file(script).value());
-    auto recording = SimRecording::begin(file, about, files, session, Pace::Waits);
+    auto recording = SimRecording::begin(file, about, files, *robots.value(), Pace::Waits);
     EXPECT_TRUE(recording.ok());
     while (session.now() < 4s) session.step(sim::kNodeStep);
     EXPECT_TRUE(act(session.world()).ok());

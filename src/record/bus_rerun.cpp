@@ -26,7 +26,7 @@ public:
         end_ = end;
     }
 
-    Status prepare(const mcap::Reader& reader) {
+    Status read(const mcap::Reader& reader) {
         cut_ = !reader.is_complete();
         aesl::Project project;
         if (!about_.project.empty()) {
@@ -139,7 +139,7 @@ Result<std::unique_ptr<Rerun>> open_bus_rerun(const mcap::Reader& reader, RunFil
     }
     auto made =
         std::make_unique<BusRerun>(std::move(about), std::move(folder), options, end_of(reader));
-    TRY(made->prepare(reader));
+    TRY(made->read(reader));
     return std::unique_ptr<Rerun>(std::move(made));
 }
 

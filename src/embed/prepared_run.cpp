@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <random>
 
@@ -104,7 +105,7 @@ public:
     void follow_bus(BusTap* follows);
     void set(int slot, plan::Value value);
     void reseed(uint64_t with);
-    void defer_aborts() { deferred_ = true; }
+    void defer_aborts(bool deferred) { deferred_ = deferred; }
     std::optional<std::string> take_abort();
     // What ended this run; empty if it ended by itself.
     std::string ended_by() {
@@ -122,8 +123,8 @@ public:
     std::optional<uint64_t> seed;
     std::unique_ptr<AnsweredPlan> answered;  // nullptr: code works
     run::RunOptions how;
-    std::vector<std::function<void(const plan::TraceEvent&)>> listeners;
-    run::Firing firing;  // of this run
+    std::map<int, std::function<void(const plan::TraceEvent&)>> listeners;  // by number
+    run::Firing firing;                                                     // of this run
     std::function<void(Time)> wait;
     toolbox::BusNodes nodes;
     std::unique_ptr<session::PlanWorld> world;
@@ -295,7 +296,7 @@ void PreparedRun::Insides::trace(const plan::TraceEvent& event) {
         write(sink, line);
         if (sink_all) write(sink_all, world->session().take_trace() + line);
     }
-    for (const auto& listener : listeners) listener(event);
+    for (const auto& [number, listener] : listeners) listener(event);
     if (const auto sentence = firing.see(event)) tell("note: " + *sentence);
 }
 
@@ -471,8 +472,15 @@ session::PlanWorld* PreparedRun::world() {
     return insides_->world.get();
 }
 
-void PreparedRun::listen(std::function<void(const plan::TraceEvent&)> listener) {
-    insides_->listeners.push_back(std::move(listener));
+int PreparedRun::listen(std::function<void(const plan::TraceEvent&)> listener) {
+    auto& all = insides_->listeners;
+    const int number = all.empty() ? 1 : all.rbegin()->first + 1;
+    all.emplace(number, std::move(listener));
+    return number;
+}
+
+void PreparedRun::unlisten(int listener) {
+    insides_->listeners.erase(listener);
 }
 
 void PreparedRun::pass_over(std::function<bool(const run::Raising&)> passes) {
@@ -539,8 +547,8 @@ void PreparedRun::reseed(uint64_t seed) {
     insides_->reseed(seed);
 }
 
-void PreparedRun::defer_aborts() {
-    if (insides_->world) insides_->defer_aborts();
+void PreparedRun::defer_aborts(bool deferred) {
+    if (insides_->world) insides_->defer_aborts(deferred);
 }
 
 std::optional<std::string> PreparedRun::take_abort() {

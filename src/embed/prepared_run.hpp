@@ -62,8 +62,10 @@ public:
     // project.
     std::vector<std::string> files() const;
 
-    // Before run(). Also hears the trace, on the deciding thread.
-    void listen(std::function<void(const plan::TraceEvent&)> listener);
+    // Before run(). Also hears the trace, on the deciding thread. Gives a number for unlisten(),
+    // which is for between two runs.
+    int listen(std::function<void(const plan::TraceEvent&)> listener);
+    void unlisten(int listener);
     // Before run(), in virtual time: whether an event of a supervisor is passed over, as if its
     // check had found nothing.
     void pass_over(std::function<bool(const run::Raising&)> passes);
@@ -112,8 +114,9 @@ public:
     // of actors is drawn from that seed. The world has a reseed() of its own.
     void reseed(uint64_t seed);
     // Before run(), beside a world: from now on what was asked of abort() and abort_this() is done
-    // by take_abort(), on the deciding thread. Gives by whom, if it was asked for since.
-    void defer_aborts();
+    // by take_abort(), on the deciding thread. Gives by whom, if it was asked for since. Whoever
+    // takes them no more says so before the next run.
+    void defer_aborts(bool deferred = true);
     std::optional<std::string> take_abort();
 
 private:

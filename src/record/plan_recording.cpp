@@ -1,13 +1,16 @@
 #include "record/plan_recording.hpp"
 
+#include <utility>
+
 #include "session/plan_world.hpp"
 #include "sim/chaos_file.hpp"
 
 namespace vagus::record {
 
-void attach(Recorder& recorder, embed::PreparedRun& run) {
-    run.listen([&recorder](const plan::TraceEvent& event) { recorder.trace(event); });
-    if (run.world() == nullptr) return;
+int attach(Recorder& recorder, embed::PreparedRun& run) {
+    const int listener =
+        run.listen([&recorder](const plan::TraceEvent& event) { recorder.trace(event); });
+    if (run.world() == nullptr) return listener;
     recorder.follow(run.world()->session());
     // Ended by a person at an instant, so that the same run can be ended there again.
     run.defer_aborts();
@@ -15,6 +18,7 @@ void attach(Recorder& recorder, embed::PreparedRun& run) {
         const std::optional<std::string> by = run.take_abort();
         if (by) recorder.input(Aborted{*by});
     });
+    return listener;
 }
 
 Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& path, RunFile about,
@@ -27,18 +31,22 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
     auto tape = TRY(start_tape(path, about, pack(files.all()), pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
-    attach(*made->recorder_, run);
-    run.listen(
-        [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; });
+    std::vector<int>& listeners = made->listeners_;
+    listeners.push_back(attach(*made->recorder_, run));
+    listeners.push_back(run.listen(
+        [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; }));
     made->run_ = &run;
     if (!about.is_of_bus()) return made;
     made->tap_ = std::make_unique<PlanBusTap>(*made->tape_, *made->recorder_);
-    run.listen([tap = made->tap_.get()](const plan::TraceEvent& event) { tap->sees(event); });
+    listeners.push_back(
+        run.listen([tap = made->tap_.get()](const plan::TraceEvent& event) { tap->sees(event); }));
     run.tap(made->tap_.get());
     return made;
 }
 
 Status PlanRecording::end() {
+    for (const int listener : std::exchange(listeners_, {})) run_->unlisten(listener);
+    run_->defer_aborts(false);
     if (tap_) {
         run_->tap(nullptr);
         recorder_->input_at(tap_->now(), RecordingEnds{});

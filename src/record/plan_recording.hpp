@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/file.hpp"
 #include "embed/prepared_run.hpp"
@@ -21,7 +22,8 @@
 namespace vagus::record {
 
 // Connects a recorder with a run that has not begun; what a person does to the run is an input.
-void attach(Recorder& recorder, embed::PreparedRun& run);
+// Gives the listener of the run that it is now.
+int attach(Recorder& recorder, embed::PreparedRun& run);
 
 class PlanRecording {
 public:
@@ -30,7 +32,8 @@ public:
     static Result<std::unique_ptr<PlanRecording>> begin(const std::string& path, RunFile about,
                                                         const FilesRead& files,
                                                         embed::PreparedRun& run, Pace pace);
-    // After the run, while its world is there. The first thing that went wrong.
+    // After the run, while its world is there. The first thing that went wrong. The same run may be
+    // done once more: that is not recorded.
     Status end();
     // Messages that were dropped, for the disk was too slow.
     uint64_t dropped() const { return tape_->dropped(); }
@@ -43,7 +46,8 @@ private:
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<PlanBusTap> tap_;  // on a real bus
     embed::PreparedRun* run_ = nullptr;
-    Time last_{};  // line of the trace
+    std::vector<int> listeners_;  // of the run
+    Time last_{};                 // line of the trace
 };
 
 }  // namespace vagus::record

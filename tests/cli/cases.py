@@ -826,6 +826,17 @@ class Cli(unittest.TestCase):
             self.assertEqual(screen.wait_end(), 0)
             self.assertEqual(self.after_the_screen(screen).count("the plan is over"), 1)
 
+    def test_of_a_plan_that_is_restarted_the_first_run_is_recorded_and_the_second_can_be_ended(self):
+        recording = self.folder / "run.mcap"
+        with Screen("plan", "run", self.plan_that_waits(1000), "--world", self.world, "--record", recording) as screen:
+            screen.wait_page("running")
+            screen.type("r")
+            screen.wait_page("has the first run")
+            screen.wait_page("running")
+            screen.type("q")
+            self.assertEqual(screen.wait_end(), 3)
+        self.assertIn("no difference", self.run_vagus("replay", recording).stdout)
+
     def test_only_keys_of_the_robot_that_is_there_are_shown(self):
         hall = ROOT / "examples/follow-wall/hall.world.json"
         epuck = self.file("e.world.json", WORLD.replace("thymio2", "epuck"))

@@ -112,7 +112,6 @@ void TerminalRun::end_recording() {
 }
 
 run::Ended TerminalRun::run() {
-    if (!record_.empty() && !recording_) complain(record_ + " has the first run only");
     Result<run::Ended> ended = prepared_->run(debugger_);
     end_recording();
     if (ended.ok()) return ended.value();

@@ -55,6 +55,8 @@ public:
     // Can be called again: each is a run of its own. One that cannot begin has complained, and is
     // over with an error.
     run::Ended run();
+    // What --record named; empty: nothing was to be recorded. It has the first run.
+    const std::string& record() const { return record_; }
     // Before run(); borrowed.
     void set_debugger(run::Debugger& debugger) { debugger_ = &debugger; }
 
@@ -68,7 +70,7 @@ private:
     std::optional<embed::LoadedPlan> plan_;
     std::unique_ptr<embed::PreparedRun> prepared_;
     run::Debugger* debugger_ = nullptr;
-    std::string record_;  // the file; empty: nothing is recorded, or not any more
+    std::string record_;
     std::unique_ptr<record::PlanRecording> recording_;
 };
 

@@ -82,6 +82,7 @@ run::Ended PlanScreen::run() {
         if (last_word_ && !leaves()) look_at_the_end(ended);
         if (quit_ || !restart_) return ended;
         notice_ = "restarted";
+        if (!run_.record().empty()) notice_ += "; " + run_.record() + " has the first run";
     }
 }
 

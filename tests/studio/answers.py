@@ -79,6 +79,11 @@ class Answers(Case):
             kill()
             self.expect_answers(asked)
 
+    def test_a_run_is_kept_as_a_test_while_its_project_closes(self):
+        page = self.open_simulated()
+        page.do("run.start")
+        self.expect_answers([page.ask("test.keep"), page.ask("project.close")])
+
     def test_while_the_run_hangs_and_is_ended(self):
         page = self.open_simulated()
         self.wait_node(described=True)

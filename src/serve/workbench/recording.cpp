@@ -238,9 +238,9 @@ void Workbench::keep_test(const Call& call) {
         worked<Result<std::string>>(
             worker_.poster(), [file] { return draft_of(file); },
             [this, call, plan](const Result<std::string>& text) {
-                const auto path = text.ok() && project_
-                                      ? new_test(project_->doc_of(plan), text.value())
-                                      : Result<std::string>(text.error());
+                if (!text.ok()) return call.fail(text.error());
+                if (!project_) return call.fail("unavailable", "the project was closed");
+                const auto path = new_test(project_->doc_of(plan), text.value());
                 if (!path.ok()) return call.fail(path.error());
                 call.done({{"path", path.value()}});
             });

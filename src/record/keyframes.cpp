@@ -191,6 +191,12 @@ std::string why_not_copied(const RunFile& about) {
 
 Result<std::unique_ptr<Keyframes>> Keyframes::open(const mcap::Reader& reader, Tell tell) {
     auto rerun = TRY(Rerun::open(reader, {}));
+    if (rerun->about().is_of_bus()) {
+        return Error{Code::Refused,
+                     reader.name() +
+                         ": is of a real bus, whose nodes cannot be run again, so there is no "
+                         "state to look at; `vagus replay` lets its plan decide again"};
+    }
     if (rerun->session() == nullptr) {
         return Error{Code::Refused,
                      reader.name() +

@@ -185,6 +185,13 @@ Rerun::Then Rerun::do_turn(Recorder& recorder) {
     return Then::GoOn;
 }
 
+std::string Rerun::check_by(const Recorder& recorder, Time at) const {
+    std::string text = recorder.check_text(at);
+    const std::string more = check_of_robots(at);
+    if (!more.empty()) text.insert(text.size() - 1, "," + more);
+    return text;
+}
+
 bool Rerun::ends_whole() const {
     if (next_input_ == 0) return false;
     const auto* const end = std::get_if<RecordingEnds>(&inputs_[next_input_ - 1].what);

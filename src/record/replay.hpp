@@ -91,7 +91,7 @@ public:
     // What a check says that is made now (Recorder::check_text()): in each_instant(), or after a
     // run() that was no Error.
     std::string check_at(Time at) const {
-        return recorder_ != nullptr ? recorder_->check_text(at) + check_of_robots(at) : last_check_;
+        return recorder_ != nullptr ? check_by(*recorder_, at) : last_check_;
     }
 
     // nullptr for a plan alone. Valid while this is.
@@ -130,8 +130,10 @@ protected:
     // What a debugger of the plan is asked, and a new version of it.
     virtual void ask(const run::Request&) {}
     virtual void take(const PlanFiles&) {}
-    // Of robots that have projects of their own; empty: there are none.
+    // Of robots that have projects of their own: one member more of the check; empty: there are
+    // none.
     virtual std::string check_of_robots(Time) const { return {}; }
+    std::string check_by(const Recorder& recorder, Time at) const;
     // The input with which such a run ends.
     virtual InputWhat end_of_run() const = 0;
     // Whether the run goes on, was ended by somebody then, is recorded up to here, or is to end.
@@ -151,7 +153,7 @@ protected:
     bool ends_whole() const;
     // The run is over, and the recorder goes.
     void leave(const Recorder& recorder, Time at) {
-        last_check_ = recorder.check_text(at) + check_of_robots(at);
+        last_check_ = check_by(recorder, at);
         recorder_ = nullptr;
     }
     bool is_of_studio() const { return about_.verb == kStudioVerb; }

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "base/json.hpp"
+
 namespace vagus::record {
 
 // Its channels have the names of that tape, below a robot.
@@ -48,10 +50,13 @@ void RobotRecorders::end(Time at) {
     for (const OfRobot& one : robots_) one.recorder->end(at);
 }
 
-std::string RobotRecorders::check_text(Time at) const {
+std::string RobotRecorders::check_member(Time at) const {
     std::string text;
-    for (const OfRobot& one : robots_) text += "\n" + one.recorder->check_text(at);
-    return text;
+    for (size_t i = 0; i < robots_.size(); ++i) {
+        text += fmt::format("{}{}:{}", i > 0 ? "," : "", json_quote(run_.buses().robots()[i].name),
+                            robots_[i].recorder->check_text(at));
+    }
+    return "\"robots\":{" + text + "}";
 }
 
 Result<std::vector<std::string>> recorded_robots(embed::RobotsRun& run) {

@@ -32,8 +32,8 @@ public:
 
     // The last check of each.
     void end(Time at);
-    // What their checks say that are made now.
-    std::string check_text(Time at) const;
+    // What their checks say that are made now: a member of JSON, "robots", with one for each.
+    std::string check_member(Time at) const;
 
 private:
     class Below;

@@ -83,7 +83,7 @@ private:
     }
 
     std::string check_of_robots(Time at) const override {
-        return recorded_ ? recorded_->check_text(at) : "";
+        return recorded_ && !about_.robots.empty() ? recorded_->check_member(at) : "";
     }
 
     std::unique_ptr<embed::RobotsRun> robots_;

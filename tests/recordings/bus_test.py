@@ -269,6 +269,7 @@ class BusRecordings(unittest.TestCase):
         for words, sentence in ((["--from", 0], "its nodes cannot do anything else than they did"),
                                 (["--from", 0, "--set", "n=3"], "its nodes cannot do anything else than they did"),
                                 (["--from", 0, "--reseed", 3], "its nodes cannot do anything else than they did"),
+                                (["--jumps", "-"], "of a real bus, whose nodes cannot be run again"),
                                 (["--record", self.folder / "b.mcap"], "what the plan decides now is told, not recorded"),
                                 (["--log", "thymio-II:6", "n"], "no node of this run can be run again")):
             with self.subTest(words=words):

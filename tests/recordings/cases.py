@@ -115,6 +115,17 @@ class Recordings(unittest.TestCase):
             traces.append(trace.read_bytes())
         self.assertEqual(*traces)
 
+    def test_jumps_in_a_fleet_tell_each_robot_and_what_a_straight_run_tells(self):
+        self.run_fleet("warehouse/hall")
+        instants = self.folder / "instants"
+        instants.write_text("15\n2\n9.5\n")
+        told = [json.loads(line) for line in self.replays("--jumps", instants, "--json").splitlines()]
+        self.assertEqual([one["t"] for one in told], [15, 2, 9.5])
+        for one in told:
+            self.assertEqual(sorted(one["check"]["robots"]), sorted(f"r{n}" for n in range(1, 11)))
+            self.assertEqual(sorted(one["check"]["robots"]["r4"]["nodes"]), ["bumper", "drive", "head", "range"])
+            self.assertIn(f"the state is {one['state']}\n", self.replays("--until", one["t"]))
+
     def test_a_fleet_under_faults_runs_again(self):
         faults = json.dumps([{"do": "lose", "robot": "r1", "node": "drive", "from": 1, "until": 5, "share": 0.5},
                              {"do": "reset", "robot": "r2", "node": "bumper", "at": 3}])

@@ -273,6 +273,11 @@ const JsonValue* JsonValue::find(std::string_view key) const {
     return nullptr;
 }
 
+std::string text_in(const JsonValue& object, std::string_view key) {
+    const JsonValue* const value = object.find(key);
+    return value != nullptr ? value->text : "";
+}
+
 std::string_view name_of(JsonKind kind) {
     switch (kind) {
         case JsonKind::Null:

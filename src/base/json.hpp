@@ -48,6 +48,9 @@ struct JsonValue {
     const JsonValue* find(std::string_view key) const;
 };
 
+// A member that is a text or a number, as it is written; empty without it.
+std::string text_in(const JsonValue& object, std::string_view key);
+
 struct JsonMember {
     std::string key;
     std::string raw_key;  // as written, quotes included

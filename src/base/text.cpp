@@ -116,6 +116,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     return parts;
 }
 
+std::string_view trimmed(std::string_view text, std::string_view spaces) {
+    const size_t first = text.find_first_not_of(spaces);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(spaces) - first + 1);
+}
+
 std::string small_letters(std::string_view text) {
     std::string small(text);
     for (char& c : small) {

@@ -52,6 +52,9 @@ std::string visible_lines(std::string_view text);
 // The parts between the separators: one more than there are separators.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+// Without these at its beginning and its end.
+std::string_view trimmed(std::string_view text, std::string_view spaces = " \t");
+
 // With a to z for A to Z; all else stays.
 std::string small_letters(std::string_view text);
 

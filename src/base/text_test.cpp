@@ -69,6 +69,13 @@ TEST(Text, SplitsAtEverySeparator) {
     EXPECT_EQ(split("", ';'), (std::vector<std::string_view>{""}));
 }
 
+TEST(Text, IsTrimmedAtBothEnds) {
+    EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+    EXPECT_EQ(trimmed(" \t "), "");
+    EXPECT_EQ(trimmed(""), "");
+    EXPECT_EQ(trimmed("\ta ", " "), "\ta");
+}
+
 TEST(Text, CutsNoCharacterInTwo) {
     EXPECT_EQ(utf8_prefix("a\xc3\xa9", 2), "a");
     EXPECT_EQ(utf8_prefix("a\xc3\xa9", 3), "a\xc3\xa9");

@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "base/json.hpp"
 #include "base/nearest.hpp"
 #include "base/seconds.hpp"
 #include "record/compare_tape.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
-#include "record/scene_shape.hpp"
 #include "record/topics.hpp"
 
 namespace vagus::record {

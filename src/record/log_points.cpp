@@ -10,6 +10,7 @@
 #include "base/json.hpp"
 #include "base/nearest.hpp"
 #include "base/seconds.hpp"
+#include "base/text.hpp"
 #include "debug/lines.hpp"
 
 namespace vagus::record {
@@ -21,12 +22,6 @@ constexpr std::string_view kForms =
 
 Error refuse(Code code, const LogWish& wish, std::string_view sentence) {
     return {code, fmt::format("--log {}: {}", wish.where, sentence)};
-}
-
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 // At commas that are in no brackets and no quotes.

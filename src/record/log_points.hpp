@@ -159,4 +159,32 @@ private:
     std::vector<Waiting> waiting_;
 };
 
+// Whether all that log points name is there: asked once, as soon as it can be known.
+class LogPlaces {
+public:
+    // Borrowed. `then` comes behind a check that finds all, and may find something else missing.
+    explicit LogPlaces(const LogPoints& points, std::function<Status()> then = {})
+        : points_(points), then_(std::move(then)) {}
+
+    // At each instant.
+    void look() {
+        if (!known_ && points_.settled()) (void)ask();
+    }
+    // Now, if it was not before.
+    const Status& ask() {
+        if (!known_) {
+            known_ = points_.check();
+            if (known_->ok() && then_) known_ = then_();
+        }
+        return *known_;
+    }
+    // So far.
+    bool are_missing() const { return known_ && !known_->ok(); }
+
+private:
+    const LogPoints& points_;
+    std::function<Status()> then_;
+    std::optional<Status> known_;
+};
+
 }  // namespace vagus::record

@@ -14,31 +14,6 @@ namespace vagus::record {
 
 namespace {
 
-// Whether all that was asked for is there: asked once, as soon as it can be known.
-class Places {
-public:
-    Places(const LogPoints& points, Rerun& rerun, const LogRun& wanted)
-        : points_(points), rerun_(rerun), wanted_(wanted) {}
-
-    void look() {
-        if (!known_ && points_.settled()) ask();
-    }
-    const Status& ask() {
-        if (!known_) {
-            known_ = points_.check();
-            if (known_->ok()) known_ = wanted_.settled(rerun_);
-        }
-        return *known_;
-    }
-    bool are_missing() const { return known_ && !known_->ok(); }
-
-private:
-    const LogPoints& points_;
-    Rerun& rerun_;
-    const LogRun& wanted_;
-    std::optional<Status> known_;
-};
-
 Error not_the_same(const Difference& found) {
     return {Code::Refused,
             fmt::format("the run does not come out as it was recorded: it differs at {} s in {}; "
@@ -59,7 +34,7 @@ Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
     const auto wishes = TRY(wanted.wishes(*rerun));
     const auto points = TRY(LogPoints::set(wishes, run, wanted.told));
     CompareTape tape(reader, {}, until);
-    Places places(*points, *rerun, wanted);
+    LogPlaces places(*points, [&] { return wanted.settled(*rerun); });
     rerun->listen([&points](const plan::TraceEvent& event) { points->see(event); });
     rerun->each_instant([&](Time at) {
         places.look();

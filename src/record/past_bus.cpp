@@ -12,11 +12,6 @@ namespace vagus::record {
 
 namespace {
 
-std::string text_in(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    return value != nullptr && value->kind == JsonKind::String ? value->text : "";
-}
-
 uint32_t number_in(const JsonValue& from, std::string_view key) {
     const JsonValue* const value = from.find(key);
     const bool there = value != nullptr && value->kind == JsonKind::Int;

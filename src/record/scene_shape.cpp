@@ -33,9 +33,4 @@ std::optional<SceneShape> scene_shape(const JsonValue& entity) {
     return std::nullopt;
 }
 
-std::string text_in(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    return value != nullptr ? value->text : "";
-}
-
 }  // namespace vagus::record

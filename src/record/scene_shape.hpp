@@ -5,8 +5,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "base/json.hpp"
 
@@ -20,8 +18,5 @@ struct SceneShape {
 
 // Nothing: it has no place.
 std::optional<SceneShape> scene_shape(const JsonValue& entity);
-
-// A member that is a text or a number, as it is written; empty without it.
-std::string text_in(const JsonValue& from, std::string_view key);
 
 }  // namespace vagus::record

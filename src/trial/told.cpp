@@ -20,10 +20,6 @@ JsonValue tree_of(std::string_view text) {
     return std::get<JsonValue>(std::move(read));
 }
 
-std::string text_in(const JsonValue& json, std::string_view key) {
-    return json.find(key)->text;
-}
-
 uint64_t number_in(const JsonValue& json, std::string_view key) {
     return static_cast<uint64_t>(json.find(key)->integer);
 }

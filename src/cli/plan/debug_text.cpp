@@ -37,12 +37,6 @@ std::string line_of(const run::LevelNow& level) {
                        words_of(level.phase));
 }
 
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(' ');
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 Result<uint64_t> parse_count(const std::string& text) {
     const auto count = plan::int_from_digits(text);
     if (count && *count > 0) return static_cast<uint64_t>(*count);
@@ -54,17 +48,17 @@ Result<uint64_t> parse_count(const std::string& text) {
 Status take_count_behind(std::string_view& condition, run::Breakpoint& made) {
     const size_t last = condition.rfind(' ');
     if (last == std::string_view::npos) return Status::done();
-    const std::string_view before = trimmed(condition.substr(0, last));
+    const std::string_view before = trimmed(condition.substr(0, last), " ");
     if (!before.ends_with(" count")) return Status::done();
     made.stop_at = TRY(parse_count(std::string(condition.substr(last + 1))));
-    condition = trimmed(before.substr(0, before.size() - 6));
+    condition = trimmed(before.substr(0, before.size() - 6), " ");
     return Status::done();
 }
 
 Result<run::Breakpoint> finish(run::Breakpoint made, std::string_view rest) {
     for (std::string word = take_word(rest); !word.empty(); word = take_word(rest)) {
         if (word == "if") {
-            std::string_view condition = trimmed(rest);
+            std::string_view condition = trimmed(rest, " ");
             TRY(take_count_behind(condition, made));
             made.condition = std::string(condition);
             if (!made.condition.empty()) return made;
@@ -87,7 +81,7 @@ Result<run::Breakpoint> finish(run::Breakpoint made, std::string_view rest) {
 }  // namespace
 
 std::string take_word(std::string_view& rest) {
-    rest = trimmed(rest);
+    rest = trimmed(rest, " ");
     char quote = 0;
     size_t length = 0;
     for (; length < rest.size(); ++length) {
@@ -100,7 +94,7 @@ std::string take_word(std::string_view& rest) {
         }
     }
     std::string word(rest.substr(0, length));
-    rest = trimmed(rest.substr(length));
+    rest = trimmed(rest.substr(length), " ");
     return word;
 }
 
@@ -113,7 +107,7 @@ Result<run::Breakpoint> parse_breakpoint(std::string_view text) {
     }
     if (word == "when") {
         made.kind = Kind::Condition;
-        std::string_view condition = trimmed(text);
+        std::string_view condition = trimmed(text, " ");
         TRY(take_count_behind(condition, made));
         made.condition = std::string(condition);
         return made;

@@ -10,6 +10,7 @@
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "base/text.hpp"
 #include "cli/output.hpp"
 #include "record/keyframes.hpp"
 #include "record/recorder.hpp"
@@ -21,13 +22,6 @@ namespace {
 using record::Keyframes;
 
 constexpr double kSecondsMax = 1e9;
-
-std::string_view trimmed(std::string_view line) {
-    constexpr std::string_view kSpaces = " \t\r";
-    const size_t begin = line.find_first_not_of(kSpaces);
-    if (begin == std::string_view::npos) return {};
-    return line.substr(begin, line.find_last_not_of(kSpaces) + 1 - begin);
-}
 
 std::optional<Time> instant_in(std::string_view line) {
     double seconds = 0;
@@ -59,7 +53,7 @@ public:
         int exit_code = kExitDone;
         std::string line;
         for (size_t number = 1; std::getline(lines, line); ++number) {
-            const std::string_view text = trimmed(line);
+            const std::string_view text = trimmed(line, " \t\r");
             if (text.empty()) continue;
             const Status answered = answer(text);
             if (!answered.ok()) {

@@ -245,17 +245,21 @@ class Looker {
 public:
     Looker(const ReplayOptions& options, record::Rerun& rerun, record::LogPoints& points,
            std::function<bool()> is_over)
-        : options_(options), rerun_(rerun), points_(points), is_over_(std::move(is_over)) {
+        : options_(options),
+          rerun_(rerun),
+          points_(points),
+          places_(points),
+          is_over_(std::move(is_over)) {
         if (options.until) until_ = from_seconds(*options.until);
         rerun.each_instant([this](Time at) { look(at); });
     }
 
     Status end() {
-        check();
+        const Status& there = places_.ask();
         for (const std::string& place : points_.not_reached()) {
-            if (there_.ok()) complain("--log " + place + ": was not reached");
+            if (there.ok()) complain("--log " + place + ": was not reached");
         }
-        return there_;
+        return there;
     }
 
     // Of the instant at which it was to end.
@@ -263,25 +267,21 @@ public:
 
 private:
     void look(Time at) {
-        if (!checked_ && points_.settled()) check();
-        if (!there_.ok() || is_over_()) rerun_.stop();
+        places_.look();
+        if (places_.are_missing() || is_over_()) rerun_.stop();
         if (at < until_ || std::exchange(told_, true)) return;
         points_.close();
         state_ = record::state_hash(rerun_.check_at(at));
         if (!options_.json) tell_state(rerun_, at, state_);
     }
-    void check() {
-        if (!std::exchange(checked_, true)) there_ = points_.check();
-    }
 
     const ReplayOptions& options_;
     record::Rerun& rerun_;
     record::LogPoints& points_;
+    record::LogPlaces places_;
     std::function<bool()> is_over_;
     Time until_ = Time::max();
     std::string state_;
-    Status there_ = Status::done();
-    bool checked_ = false;
     bool told_ = false;
 };
 

@@ -25,11 +25,6 @@ int64_t integer_in(const JsonValue& json, std::string_view key) {
     return value == nullptr ? 0 : value->integer;
 }
 
-std::string text_in(const JsonValue& json, std::string_view key) {
-    const JsonValue* value = json.find(key);
-    return value == nullptr ? "" : value->text;
-}
-
 Words words_of(const JsonValue& json) {
     Words words;
     for (const JsonValue& item : json.items) words.push_back(static_cast<int16_t>(item.integer));

@@ -14,7 +14,7 @@ namespace vagus::run {
 
 namespace {
 
-struct Posted {
+struct PostedRequest {
     uint64_t number;
     Request request;
 };
@@ -63,22 +63,22 @@ public:
         wake_ = std::move(wake);
     }
 
-    std::optional<Posted> take() {
+    std::optional<PostedRequest> take() {
         if (!waiting_) return std::nullopt;
         const std::lock_guard lock(mutex_);
         return take_locked();
     }
 
-    Posted wait() {
+    PostedRequest wait() {
         std::unique_lock lock(mutex_);
         came_.wait(lock, [this] { return !requests_.empty(); });
         return *take_locked();
     }
 
 private:
-    std::optional<Posted> take_locked() {
+    std::optional<PostedRequest> take_locked() {
         if (requests_.empty()) return std::nullopt;
-        Posted posted = std::move(requests_.front());
+        PostedRequest posted = std::move(requests_.front());
         requests_.pop_front();
         waiting_ = !requests_.empty();
         return posted;
@@ -87,7 +87,7 @@ private:
     std::mutex mutex_;
     std::condition_variable came_;
     std::condition_variable reported_;
-    std::deque<Posted> requests_;
+    std::deque<PostedRequest> requests_;
     std::deque<Report> reports_;
     std::function<void()> wake_;
     uint64_t last_ = 0;
@@ -219,13 +219,13 @@ public:
     }
 
     // A run that has not begun has no plan yet that could change.
-    bool has_to_wait(const Posted& posted) const {
+    bool must_wait(const PostedRequest& posted) const {
         return std::holds_alternative<TakeVersion>(posted.request) && machine_->depth() == 0;
     }
 
-    std::optional<Posted> next_request() {
+    std::optional<PostedRequest> next_request() {
         if (!waiting_.empty() && machine_->depth() > 0) {
-            std::optional<Posted> first = std::move(waiting_.front());
+            std::optional<PostedRequest> first = std::move(waiting_.front());
             waiting_.pop_front();
             return first;
         }
@@ -256,7 +256,7 @@ public:
 
     const At first_;
     // The next request; while there is none, what else the thread has to do.
-    Posted wait() {
+    PostedRequest wait() {
         if (!meanwhile_) return mailbox_.wait();
         for (;;) {
             if (auto posted = mailbox_.take()) return std::move(*posted);
@@ -276,9 +276,9 @@ public:
     bool step_ = false;     // stop before the next begin
     bool stepped_ = false;  // that is now
     bool abort_asked_ = false;
-    std::deque<Posted> waiting_;   // for the run to begin
-    std::vector<int> met_;         // breakpoints, in this decision
-    std::optional<Time> instant_;  // at which to pause
+    std::deque<PostedRequest> waiting_;  // for the run to begin
+    std::vector<int> met_;               // breakpoints, in this decision
+    std::optional<Time> instant_;        // at which to pause
     // While it runs with one event alone: it stops at the next thing it does, or then.
     std::optional<Time> event_step_ends_;
     bool event_step_heard_ = false;  // the plan has it: what it does from here on is the next thing
@@ -335,9 +335,9 @@ bool Debugger::serve(Time now) {
     core.stop_if_met();
     if (core.paused_ && !was_paused) return true;  // the executor first pauses everything
     if (core.abort_asked_ || core.machine_->over()) return false;
-    std::optional<Posted> posted = core.next_request();
+    std::optional<PostedRequest> posted = core.next_request();
     if (!posted) return false;
-    if (core.has_to_wait(*posted)) {
+    if (core.must_wait(*posted)) {
         core.waiting_.push_back(std::move(*posted));
         return true;
     }

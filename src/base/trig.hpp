@@ -12,6 +12,7 @@
 namespace vagus::trig {
 
 constexpr double kPi = 0x1.921fb54442d18p+1;
+constexpr double kDegree = kPi / 180;  // rad
 
 double sin(double radians);
 double cos(double radians);

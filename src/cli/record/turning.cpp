@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 // What a line of a process begins with: how a continuation ended, what is wrong with the question,
 // how the process of one ended instead.
-constexpr char kAnswer = '=', kWrong = '!', kBroken = '?';
+constexpr char kAnswer = '=', kWrong = '!', kFailed = '?';
 
 // Runs continuations in processes that begin as copies of this one: at an instant a process goes on
 // in a copy of itself for each seed.
@@ -98,7 +98,7 @@ private:
         const auto end = continued_.from_each(part.at, part.seeds, split);
         if (!end.ok()) return wrong(end.error());
         if (end.value()) return text_of(*end.value());  // in a copy
-        return trouble.empty() ? "" : kBroken + trouble;
+        return trouble.empty() ? "" : kFailed + trouble;
     }
 
     using Ends = std::vector<trial::RunEnd>;
@@ -121,7 +121,7 @@ private:
         if (!result.trouble.empty()) return Error{Code::Unavailable, what + result.trouble};
         for (std::string_view rest = result.text; !rest.empty();) {
             const std::string said(rest.substr(1));
-            if (rest.front() == kBroken) return Error{Code::Unavailable, what + said};
+            if (rest.front() == kFailed) return Error{Code::Unavailable, what + said};
             if (rest.front() == kWrong) return Error{Code::BadInput, said};
             const std::string_view line = rest.substr(0, rest.find('\n'));
             ends.push_back(trial::read_run_end(line.substr(1)));

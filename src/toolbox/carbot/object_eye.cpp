@@ -13,7 +13,6 @@ namespace vagus::toolbox::carbot {
 
 namespace {
 
-constexpr double kDegree = trig::kPi / 180;
 constexpr int kHueReach = 10;   // of 180: what still counts as that colour
 constexpr int kValueMin = 40;   // of 255: darker things have no colour
 constexpr int kPointsMax = 40;  // that are followed
@@ -183,9 +182,9 @@ std::optional<Sighting> ObjectEye::Insides::keep_by_flow(const cv::Mat& grey,
 }
 
 Sighting ObjectEye::Insides::sighting(const cv::Rect& seen, const cv::Size& size) const {
-    const double focus = size.width / 2.0 / trig::tan(kCameraFieldDeg / 2 * kDegree);
+    const double focus = size.width / 2.0 / trig::tan(kCameraFieldDeg / 2 * trig::kDegree);
     const auto angle = [&](double column) {
-        return trig::atan2(size.width / 2.0 - column, focus) / kDegree;
+        return trig::atan2(size.width / 2.0 - column, focus) / trig::kDegree;
     };
     Sighting told;
     told.angle_deg = angle(middle(seen).x);
@@ -195,7 +194,7 @@ Sighting ObjectEye::Insides::sighting(const cv::Rect& seen, const cv::Size& size
     const double below = foot - size.height / 2.0;
     if (foot < size.height && below > 0) {
         const double depth = kCameraEyeCm * focus / below;
-        told.distance_cm = depth / trig::cos(told.angle_deg * kDegree);
+        told.distance_cm = depth / trig::cos(told.angle_deg * trig::kDegree);
     }
     return told;
 }

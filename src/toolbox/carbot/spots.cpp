@@ -10,7 +10,6 @@ namespace vagus::toolbox::carbot {
 
 namespace {
 
-constexpr double kDegree = trig::kPi / 180;
 constexpr double kSame = 0.04;  // of the distance: the same surface at the same place
 constexpr double kEdge = 0.3;   // of the distance: beyond, what is nearer is something else
 
@@ -84,11 +83,11 @@ Spot placed(const Pose& robot, const Spot& spot) {
 }
 
 double sine(double degrees) {
-    return trig::sin(degrees * kDegree);
+    return trig::sin(degrees * trig::kDegree);
 }
 
 double cosine(double degrees) {
-    return trig::cos(degrees * kDegree);
+    return trig::cos(degrees * trig::kDegree);
 }
 
 }  // namespace vagus::toolbox::carbot

@@ -1,5 +1,6 @@
 // Events that have come while code was between two waits. The next wait looks at them first, so
-// that nothing is lost between a command and the wait for its answer.
+// that nothing is lost between a command and the wait for its answer, nor between the end of one
+// actor and the begin of the next.
 #pragma once
 
 #include <deque>
@@ -18,6 +19,10 @@ public:
         if (events_.size() >= kKeptEventsMax) events_.pop_front();
         events_.push_back(event);
     }
+
+    const std::deque<BusEvent>& all() const { return events_; }
+    void clear() { events_.clear(); }
+    std::deque<BusEvent> take_all() { return std::exchange(events_, {}); }
 
     // The first of that name (empty: of any). Those before it have been let pass; all have, if none
     // is of that name.

@@ -100,6 +100,7 @@ private:
     bool timed_out_ = false;
     std::deque<plan::Command> commands_;  // not yet obeyed
     std::deque<Posted> taken_;            // of the inbox, not yet looked at
+    HeardEvents between_;                 // what came while no code ran; the next code hears it
     std::map<plan::WatchId, Watching> watching_;
     EndingChecks ending_;
     plan::ActivationId begin_due_ = 0;
@@ -235,6 +236,7 @@ bool RealTime::Engine::has_to_wait(const plan::Command& command) const {
 
 void RealTime::Engine::obey(plan::StartWatch& command) {
     if (!machine_.watching(command.watch)) return;  // stopped again while the command waited
+    const bool by_events = command.supervisor->period_us == 0;
     watching_.emplace(command.watch,
                       Watching{.id = command.watch,
                                .level = command.level,
@@ -247,7 +249,8 @@ void RealTime::Engine::obey(plan::StartWatch& command) {
                                .next = now(),
                                .checked_at = now(),
                                .in = {},
-                               .events = {},
+                               .events = by_events ? between_.all() : std::deque<BusEvent>{},
+                               .looks_at = {},
                                .job = {}});
 }
 
@@ -283,6 +286,7 @@ void RealTime::Engine::obey(plan::StartCode& command) {
     code->context =
         std::make_unique<LiveContext>(std::move(command.in), of, inbox_, random_, clock_);
     code->grace = Duration{command.actor->of->grace_ms * 1000};
+    for (const BusEvent& event : between_.take_all()) code->context->hear(event);
     code_[command.activation] = code;
     const auto body = [code, &inbox = inbox_] {
         CodeOver over{code->activation, {}, false, {}};
@@ -321,6 +325,10 @@ void RealTime::Engine::take(CodeOver& message) {
     const auto found = code_.find(message.activation);
     if (found == code_.end()) return;
     const bool told = found->second->told;
+    // Code takes no time between its waits: what came since the last one comes after its end.
+    for (BusEvent& event : found->second->context->take_unheard()) {
+        if (!told) between_.push(event);
+    }
     code_.erase(found);
     if (told) {
         const int level = machine_.stopping_level();
@@ -359,6 +367,8 @@ void RealTime::Engine::take(Checked& message) {
     if (message.failed) {
         machine_.fail_watch(message.watch, message.failure, now());
     } else if (message.given) {
+        // It is past for the code that begins next.
+        if (!watching.looks_at.empty()) between_.take(watching.looks_at);
         machine_.raise(message.watch, *message.given, now());
     }
 }
@@ -366,13 +376,14 @@ void RealTime::Engine::take(Checked& message) {
 void RealTime::Engine::take(Heard& message) {
     if (message.own && options_.on_emit) options_.on_emit(message.event);
     for (auto& [id, watching] : watching_) {
-        if (watching.waits_for_events && may_check(watching)) {
+        if (watching.period().count() == 0 && may_check(watching)) {
             watching.events.push_back(message.event);
         }
     }
     if (message.own) return;  // code does not hear what it has said itself
     if (options_.debugger) options_.debugger->heard();
     if (options_.on_hear) options_.on_hear(message.event, now());
+    if (code_.empty()) between_.push(message.event);
     for (const auto& [activation, code] : code_) code->context->hear(message.event);
 }
 
@@ -452,6 +463,7 @@ void RealTime::Engine::run_check(Watching& watching, Check check, std::optional<
                                  Time deadline) {
     watching.busy = true;
     watching.checked_at = deadline;
+    watching.looks_at = event ? event->name : "";
     watching.job =
         workers_.start([watch = watching.id, code = watching.code, check = std::move(check),
                         event = std::move(event), deadline, doors = doors_]() mutable {

@@ -206,6 +206,7 @@ void LiveContext::tell_to_stop() {
 void LiveContext::hear(const BusEvent& event) {
     {
         const std::lock_guard lock(mutex_);
+        unheard_.push(event);
         const bool kept = kept_.offer(event);
         const bool waited_for = waiting_ && !heard_ && (event_.empty() || event_ == event.name);
         if (!waiting_ || heard_) early_.push(event);
@@ -231,9 +232,21 @@ void LiveContext::release() {
     wake_.notify_one();
 }
 
+std::deque<BusEvent> LiveContext::take_unheard() {
+    const std::lock_guard lock(mutex_);
+    return unheard_.take_all();
+}
+
 void LiveContext::listen(std::vector<std::string> names) {
     const std::lock_guard lock(mutex_);
     kept_.listen(std::move(names));
+    unheard_.clear();
+}
+
+// A wait has ended with that event: it and those before it are past. Without one, all are.
+void LiveContext::pass(const std::optional<BusEvent>& taken) {
+    if (!taken) return unheard_.clear();
+    unheard_.take(taken->name);
 }
 
 ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) {
@@ -243,6 +256,7 @@ ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) 
     heard_ = early_.take(event);
     wait_for(lock, at_most, [this] { return heard_.has_value(); });
     waiting_ = false;
+    pass(heard_);
     return noted({.stop = stop_, .event = std::move(heard_)});
 }
 
@@ -255,7 +269,9 @@ ActorContext::Woken LiveContext::wait_kept(Duration at_most) {
     }
     wait_for(lock, at_most, [this] { return !kept_.empty(); });
     if (stop_) return {.stop = true};
-    return noted({.stop = false, .event = kept_.take()});
+    std::optional<BusEvent> first = kept_.take();
+    pass(first);
+    return noted({.stop = false, .event = std::move(first)});
 }
 
 // Until the time, `ready`, or Stop. By the run's clock, which is stopped while the run is paused:

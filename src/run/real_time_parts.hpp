@@ -199,6 +199,8 @@ public:
     void hear(const BusEvent& event);
     void hold();
     void release();
+    // When its code is over: what came after its last wait, in that order.
+    std::deque<BusEvent> take_unheard();
 
 protected:
     Woken wait(Duration at_most, std::string_view event) override;
@@ -212,6 +214,7 @@ private:
     }
     void wait_for(std::unique_lock<std::mutex>& lock, Duration at_most,
                   const std::function<bool()>& ready);
+    void pass(const std::optional<BusEvent>& taken);
     void stay_held(std::unique_lock<std::mutex>& lock);
 
     const plan::ActivationId activation_;
@@ -227,7 +230,8 @@ private:
     bool stop_ = false;
     bool held_ = false;
     bool waiting_ = false;
-    HeardEvents early_;  // while it did not wait
+    HeardEvents early_;    // while it did not wait
+    HeardEvents unheard_;  // since its last wait ended
     std::string event_;
     std::optional<BusEvent> heard_;
     KeptEvents kept_;

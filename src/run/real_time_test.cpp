@@ -274,5 +274,97 @@ TEST_F(RealTimeChecks, ClocksThatDifferALittleAreNoSleep) {
     EXPECT_EQ(ended.message, "");
 }
 
+// ---- an answer that is faster than the run ----
+
+// Sends, and returns when the run has taken the answer: nobody else waits for it yet.
+class FastAnswers : public testing::Test {
+protected:
+    FastAnswers() {
+        library_.add(
+            "core", "",
+            {test_actor("Ask",
+                        [this](ActorContext& context) {
+                            context.emit({"ask", {}});
+                            std::unique_lock lock(mutex_);
+                            came_.wait(lock, [this] { return answers_taken_ == answers_; });
+                        }),
+             test_actor("Nothing", [](ActorContext&) {}),
+             test_actor("Sleep", [](ActorContext& context) { context.sleep(1h); }),
+             test_actor("Await", [](ActorContext& context) { context.wait_event("answer"); }),
+             test_actor("AwaitBriefly",
+                        [](ActorContext& context) {
+                            if (context.wait_event("answer", 50ms)) throw CodeError("heard twice");
+                        }),
+             test_supervisor("OnAnswer", 0, [] { return std::make_unique<OnAnswer>(); })});
+        options_.max_time = 30s;
+        options_.on_emit = [this](const BusEvent&) {
+            for (int i = 0; i < answers_; ++i) running_->hear({"answer", {}});
+        };
+        options_.on_hear = [this](const BusEvent&, Time) {
+            const std::lock_guard lock(mutex_);
+            ++answers_taken_;
+            came_.notify_all();
+        };
+        options_.on_trace = [this](const plan::TraceEvent& event) {
+            lines_.push_back(test_line(event));
+        };
+    }
+
+    class OnAnswer final : public Supervisor {
+        std::optional<plan::Given> check(const Check& check) override {
+            if (!check.event || check.event->name != "answer") return std::nullopt;
+            return plan::Given{};
+        }
+    };
+
+    Ended run(const std::string& actors) {
+        const plan::Graph graph = test_graph(
+            R"({ "format": "vagus-plan/1", "name": "P", "start": { "actor": "ask" }, "actors": {)" +
+                actors + "} }",
+            library_);
+        RealTime run(graph, library_, options_);
+        running_ = &run;
+        return run.run();
+    }
+
+    CodeLibrary library_;
+    RunOptions options_;
+    RealTime* running_ = nullptr;
+    int answers_ = 1;
+    std::mutex mutex_;  // guards what follows
+    std::condition_variable came_;
+    int answers_taken_ = 0;
+    std::vector<std::string> lines_;
+};
+
+TEST_F(FastAnswers, TheNextActorHearsWhatCameAsTheOneBeforeEnded) {
+    const Ended ended = run(R"("ask": { "template": "Ask", "states": { "Done": "between" } },
+        "between": { "template": "Nothing", "states": { "Done": "await" } },
+        "await": { "template": "Await", "states": { "Done": "@terminate" } })");
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok) << ended.message;
+    EXPECT_FALSE(ended.timed_out);
+}
+
+TEST_F(FastAnswers, EachOfThemIsHeardOnceInTheirOrder) {
+    answers_ = 2;
+    const Ended ended = run(R"("ask": { "template": "Ask", "states": { "Done": "one" } },
+        "one": { "template": "Await", "states": { "Done": "two" } },
+        "two": { "template": "Await", "states": { "Done": "no_more" } },
+        "no_more": { "template": "AwaitBriefly", "states": { "Done": "@terminate" } })");
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok) << ended.message;
+    EXPECT_FALSE(ended.timed_out);
+}
+
+// It raises once, for the first of the two that watch for it.
+TEST_F(FastAnswers, ASupervisorThatBeginsToWatchHearsThemToo) {
+    const Ended ended = run(R"("ask": { "template": "Ask", "states": { "Done": "first" } },
+        "first": { "template": "Sleep", "states": { "Done": "@terminate" }, "supervisors": {
+            "answered": { "template": "OnAnswer", "events": { "Seen": "second" } } } },
+        "second": { "template": "AwaitBriefly", "states": { "Done": "@terminate" }, "supervisors": {
+            "again": { "template": "OnAnswer", "events": { "Seen": "@terminate" } } } })");
+    EXPECT_EQ(ended.result, plan::PlanResult::Ok) << ended.message;
+    EXPECT_FALSE(ended.timed_out);
+}
+
 }  // namespace
 }  // namespace vagus::run

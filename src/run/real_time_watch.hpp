@@ -56,7 +56,8 @@ struct Watching {
     bool first_done = false;
     std::vector<plan::Value> in;
     std::deque<BusEvent> events;
-    Workers::Job job;  // the check
+    std::string looks_at;  // name of the event that the check looks at
+    Workers::Job job;      // the check
 
     Duration period() const { return Duration{of->period_us}; }
 };

@@ -24,7 +24,7 @@ public:
           sleep_(options) {}
 
     Ended run();
-    Lateness lateness() const;
+    Lateness lateness() const { return lateness_.told(); }
     Inbox& inbox() { return inbox_; }
 
 private:
@@ -84,7 +84,6 @@ private:
     void go_on();
     Ended decide();
     void finish();
-    void note_lateness(Duration late);
     void hand_out_trace();
     void hand_out(const plan::TraceEvent& event);
 
@@ -107,8 +106,7 @@ private:
     bool begin_waits_ = false;  // for first checks
     std::optional<plan::TraceEvent> last_line_;
     std::map<plan::ActivationId, std::shared_ptr<Code>> code_;  // owners: this, and its thread
-    std::vector<uint32_t> lateness_us_;
-    size_t lateness_next_ = 0;
+    LatenessSamples lateness_;
     Workers workers_;  // last: its threads end before what they use
 };
 
@@ -344,7 +342,7 @@ void RealTime::Engine::take(CodeOver& message) {
 }
 
 void RealTime::Engine::take(Checked& message) {
-    note_lateness(message.late);
+    lateness_.note(message.late);
     const auto found = watching_.find(message.watch);
     if (found == watching_.end()) {  // it has been stopped meanwhile: dropped (P18)
         if (auto over = ending_.take(message.watch)) end_watching(*over);
@@ -540,22 +538,6 @@ std::optional<Time> RealTime::Engine::next_deadline() const {
     if (options_.max_time && !timed_out_) consider(*options_.max_time);
     if (options_.debugger && options_.debugger->instant()) consider(*options_.debugger->instant());
     return next;
-}
-
-void RealTime::Engine::note_lateness(Duration late) {
-    const auto us = static_cast<uint32_t>(std::clamp<int64_t>(late.count(), 0, UINT32_MAX));
-    if (lateness_us_.size() < kLatenessSamples) return lateness_us_.push_back(us);
-    lateness_us_[lateness_next_] = us;
-    lateness_next_ = (lateness_next_ + 1) % kLatenessSamples;
-}
-
-Lateness RealTime::Engine::lateness() const {
-    if (lateness_us_.empty()) return {};
-    std::vector<uint32_t> us = lateness_us_;
-    std::sort(us.begin(), us.end());
-    const auto last = static_cast<double>(us.size() - 1);
-    const auto at = [&](double share) { return Duration{us[static_cast<size_t>(share * last)]}; };
-    return {us.size(), at(0.5), at(0.99), at(1.0)};
 }
 
 void RealTime::Engine::hand_out_trace() {

@@ -64,6 +64,24 @@ bool SleepWatch::has_slept() {
     return true;
 }
 
+// ---- lateness ----
+
+void LatenessSamples::note(Duration late) {
+    const auto us = static_cast<uint32_t>(std::clamp<int64_t>(late.count(), 0, UINT32_MAX));
+    if (us_.size() < kLatenessSamples) return us_.push_back(us);
+    us_[next_] = us;
+    next_ = (next_ + 1) % kLatenessSamples;
+}
+
+Lateness LatenessSamples::told() const {
+    if (us_.empty()) return {};
+    std::vector<uint32_t> us = us_;
+    std::sort(us.begin(), us.end());
+    const auto last = static_cast<double>(us.size() - 1);
+    const auto at = [&](double share) { return Duration{us[static_cast<size_t>(share * last)]}; };
+    return {us.size(), at(0.5), at(0.99), at(1.0)};
+}
+
 // ---- the inbox ----
 
 namespace {

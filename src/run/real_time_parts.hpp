@@ -16,12 +16,14 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "run/code.hpp"
 #include "run/heard_events.hpp"
 #include "run/held_events.hpp"
 #include "run/kept_events.hpp"
 #include "run/options.hpp"
+#include "run/real_time.hpp"
 
 namespace vagus::run {
 
@@ -57,6 +59,17 @@ inline Duration slept_by_clocks() {
     const Duration awake = read_clock(CLOCK_MONOTONIC);
     return read_clock(CLOCK_BOOTTIME) - awake;
 }
+
+// How late checks began, of the last kLatenessSamples.
+class LatenessSamples {
+public:
+    void note(Duration late);
+    Lateness told() const;
+
+private:
+    std::vector<uint32_t> us_;
+    size_t next_ = 0;
+};
 
 // Notices that the computer has slept. A plan that wakes does not know what its robot has done
 // meanwhile, and may not go on as if nothing had been.

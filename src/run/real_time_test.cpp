@@ -228,7 +228,7 @@ constexpr std::string_view kEndless = R"({ "format": "vagus-plan/1", "name": "P"
 TEST_F(RealTimeChecks, AComputerThatSleptEndsThePlanWhenItWakes) {
     Duration slept = 5s;  // before the run: that is no matter
     options_.slept = [&slept] { return slept; };
-    options_.on_trace = [this, &slept, note = options_.on_trace](const plan::TraceEvent& event) {
+    options_.on_trace = [&slept, note = options_.on_trace](const plan::TraceEvent& event) {
         note(event);
         if (test_line(event) == "actor-start a") slept += 12300ms;
     };

@@ -30,6 +30,7 @@ public:
     // ---- embed::BusTap ----
     void begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) override;
     void described(const debug::NodeView& node) override { bus_.described(now(), node); }
+    void happened(const debug::Event& event) override { bus_.happened(now(), event); }
     void node(const std::string& name, toolbox::BusNodes::Change change) override;
     uint32_t frame(const wire::Frame& frame, const run::BusEvent* sent) override;
     void tokens(uint16_t first) override { recorder_.input_at(now(), TokensMoved{first}); }

@@ -103,7 +103,7 @@ void Walk::frame_of_bus_node(uint32_t number, const Causes::Frame& frame) {
         add(std::move(before));
         return;
     }
-    const uint32_t heard = causes_.last_event(section.name, number);
+    const uint32_t heard = causes_.last_event_heard(section.name, number);
     const Causes::Frame* const cause = causes_.frame(heard);
     if (cause == nullptr) return;
     before.at = cause->at;
@@ -123,7 +123,7 @@ std::optional<Error> Walk::not_in_frames(const Question& question) const {
                      "an actor of the plan"};
     }
     if (question.about != About::Variable) return std::nullopt;
-    for (const auto& [id, name] : past->node_names()) {
+    for (const auto& [id, name] : past->labels()) {
         if (!question.name.starts_with(name + ".")) continue;
         return Error{Code::Refused,
                      fmt::format("this is a recording of a real bus: what wrote {} is in no frame; "

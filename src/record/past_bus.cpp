@@ -175,7 +175,11 @@ Time PastBus::next() const {
     const Item& item = items_[item_];
     Time at = item.at;
     const Line* const line = next_line();
-    if (line != nullptr && !comes_before_line(item)) at = std::max(at, line->at + Duration(1));
+    // While a debugger paused the plan, its clock stood, and that of the bus did not.
+    if (line != nullptr) {
+        at =
+            comes_before_line(item) ? std::min(at, line->at) : std::max(at, line->at + Duration(1));
+    }
     return std::max(at, last_ + Duration(1));
 }
 
@@ -227,6 +231,8 @@ void PastBus::apply(const Item& item, std::vector<run::BusEvent>& heard) {
         run_->fail(failed->why);
     } else if (std::holds_alternative<Aborted>(item.what)) {
         run_->abort();
+    } else if (const auto* const asked = std::get_if<run::Request>(&item.what)) {
+        run_->do_as_asked(*asked);  // what only paused it is in the times of all others
     }
 }
 

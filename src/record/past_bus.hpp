@@ -58,6 +58,8 @@ public:
     const aesl::Project& project() const { return project_; }
     // That of the project for a node; nullptr without one.
     const aesl::Script* script_of(uint16_t node) const;
+    // It was ended before it had begun, or nothing of it was written.
+    bool never_began() const { return lines_.empty(); }
     // Who ended the run.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
 

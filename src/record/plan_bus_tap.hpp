@@ -27,6 +27,10 @@ public:
     // By the clock of the run; from any thread.
     Time now() const;
 
+    // On the deciding thread, of the debugger of the run. While it pauses the run, whose clock
+    // stands then, the bus goes on.
+    void asked(const run::Request& request, Time at);
+
     // ---- embed::BusTap ----
     void begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) override;
     void described(const debug::NodeView& node) override { bus_.described(now(), node); }

@@ -354,6 +354,53 @@ class BusRecordings(unittest.TestCase):
                        for line in Recording(self.file).json("/vagus/input") if line["do"] == "node"])
         self.assertRegex(self.replays(), r"no difference$")
 
+    # ---- vagus plan debug --bus --record ----
+
+    def start_debugger(self, *lines):
+        words = [word for word in self.count_words() if word != "--quiet"]
+        words[1] = "debug"
+        program = self.enterContext(vagus(*words, typing=True))
+        for line in lines:
+            program.type(line)
+        return program
+
+    def test_what_a_debugger_did_is_done_again(self):
+        self.start_robot()
+        program = self.start_debugger("break actor more count 2", "run")
+        program.wait_line("^breakpoint 1, paused at .* more ")
+        for line in ("set n = 4", "delete all", "continue"):
+            program.type(line)
+        program.wait_line("^the run is over at .*: OK")
+        program.type("quit")
+        self.assertEqual(program.wait_end(), 0, program.lines)
+        recording = Recording(self.file)
+        self.assertEqual(recording.json("/vagus/run")[0]["verb"], "plan debug")
+        wrote = [(line["value"], line["by"]) for line in recording.json("/plan/trace") if line["kind"] == "write"]
+        self.assertEqual([value for value, _ in wrote], [0, 1, 2, 4, 5])
+        self.assertEqual(wrote[3], (4, "outside"))
+        asked = [line["do"] for line in recording.json("/vagus/input") if line["do"] not in ("hear", "node", "tokens")]
+        self.assertEqual(asked, ["stop-at", "continue", "set-variable", "stop-no-more", "continue", "end"])
+        self.assertRegex(self.replays(), r"no difference$")
+
+    def test_a_node_that_leaves_while_the_plan_is_paused_has_left_again(self):
+        robot = self.start_robot()
+        program = self.start_debugger("break actor ask count 2", "run")
+        program.wait_line("^breakpoint 1, paused at .* ask ")
+        robot.stop()
+        self.wait_for("/vagus/input", accept=lambda line: line["do"] == "node" and line["state"] == "left")
+        program.type("continue")
+        program.wait_line("^the run is over at .*: Error")
+        program.type("quit")
+        self.assertNotEqual(program.wait_end(), 0)
+        self.assertRegex(self.replays(), r"no difference$")
+
+    def test_a_debugger_that_ends_before_the_run_leaves_nothing_to_compare(self):
+        self.start_robot()
+        program = self.start_debugger("quit")
+        program.wait_end()
+        self.assertEqual(Recording(self.file).json("/plan/trace"), [])
+        self.assertRegex(self.replays(), r" 0 messages compared: no difference$")
+
     # ---- vagus test RECORDING ----
 
     def record_cover(self):

@@ -70,7 +70,7 @@ ROOMS = {
         ("world", "frame_notes frames_for_others node_bus inhabitants node_turns node_turns_chaos host_chaos world_insides world world_acts thread_choice world_threads"),
     ],
     "serve": [
-        ("ground", "process access base64 bytes json plan_value thrown worker"),
+        ("ground", "process access bytes json plan_value thrown worker"),
         ("protocol", "protocol/"),
         ("a broker", "broker/"),
         ("door", "web/"),

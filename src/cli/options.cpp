@@ -89,6 +89,16 @@ void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files) {
         {".toolbox.json", ".so"});
 }
 
+void add_record_options(CLI::App& verb, std::string& file, bool& camera) {
+    CLI::Option* const record =
+        verb.add_option("--record", file, "records the run, to be run again by `vagus replay`");
+    takes_file(*record, {".mcap"});
+    verb.add_flag("--record-camera", camera,
+                  "beside a world, with --record: also what the robots' cameras see, ten pictures "
+                  "a second")
+        ->needs(record);
+}
+
 void add_dialect_options(CLI::App& verb, aesl::Options& options) {
     CLI::Option* dialect = verb.add_option_function<std::string>(
         "--dialect", [&options](const std::string& word) { options.dialect = dialect_of(word); },

@@ -36,6 +36,9 @@ void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files);
 // `--seed N`: decimal digits of a number below 2^64; the last one holds.
 void add_seed_option(CLI::App& verb, std::optional<uint64_t>& seed, const std::string& help);
 
+// `--record FILE.mcap` and `--record-camera`.
+void add_record_options(CLI::App& verb, std::string& file, bool& camera);
+
 // The option takes the path of a file or folder: the shell completes it, with these endings first
 // (".aesl").
 void takes_file(CLI::Option& option, std::vector<std::string> endings);

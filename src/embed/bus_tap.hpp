@@ -31,6 +31,7 @@ public:
 
     // ---- on the thread of the bus; of the nodes that are there already, with begin() ----
     virtual void described(const debug::NodeView& node) = 0;
+    virtual void happened(const debug::Event& event) = 0;  // all that the network has to tell
     virtual void node(const std::string& name, toolbox::BusNodes::Change change) = 0;
     // As it comes or goes. With `sent` it is an event of the plan: by whom, and after which frame.
     // Gives its number, from 1 on.

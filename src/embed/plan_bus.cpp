@@ -184,6 +184,7 @@ void PlanBus::Insides::hear(uint32_t frame, std::vector<run::BusEvent>& heard) {
         if (tap && std::holds_alternative<debug::NodeDescribed>(event.what)) {
             tap->described(*network.node(event.node));
         }
+        if (tap) tap->happened(event);
         if (auto one = ears.hear(event)) heard.push_back(std::move(*one));
     }
 }

@@ -49,6 +49,16 @@ void BusRecorder::described(Time at, const debug::NodeView& node) {
     tape_.attach_later(file, aesl::format_node_file({*node.target, common_}));
 }
 
+void BusRecorder::happened(Time at, const debug::Event& event) {
+    const bool left = std::holds_alternative<debug::NodeDisconnected>(event.what);
+    const auto found = nodes_.find(event.node);
+    if (found == nodes_.end()) return;
+    if (!left && !std::holds_alternative<debug::NodeReconnected>(event.what)) return;
+    tape_.put(described_, at,
+              fmt::format(R"({{"t":{},"node":{},"name":{},"state":"{}"}})", seconds_text(at),
+                          event.node, json_quote(found->second.name), left ? "left" : "there"));
+}
+
 uint32_t BusRecorder::frame(Time at, const Passed& passed) {
     const wire::Frame& frame = passed.frame;
     const uint32_t number = ++last_;

@@ -33,6 +33,9 @@ public:
 
     void begin(aesl::CommonDefinitions common) { common_ = std::move(common); }
     void described(Time at, const debug::NodeView& node);
+    // What the network has to tell: recorded is that a node that had described itself has left or
+    // fallen silent, and that it is there again.
+    void happened(Time at, const debug::Event& event);
 
     struct Passed {
         const wire::Frame& frame;

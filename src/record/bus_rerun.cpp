@@ -51,7 +51,7 @@ public:
     }
 
     Result<Ended> run(Tape& tape) override {
-        if (!plan_) return Ended{end_, "", ""};
+        if (!plan_ || past_->never_began()) return Ended{end_, "", ""};
         const uint16_t trace = tape.declare({.name = std::string(kTraceTopic)});
         const auto tell = [&](const std::vector<PastBus::Told>& lines) {
             for (const PastBus::Told& one : lines) tape.put(trace, one.at, one.text);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
 #include "record/past_bus.hpp"
 #include "session/plan_world.hpp"
 #include "wire/bytes.hpp"
@@ -319,9 +321,18 @@ const Causes::Call* Causes::call(uint32_t number) const {
     return number == 0 || number > calls_.size() ? nullptr : &calls_[number - 1];
 }
 
-uint32_t Causes::last_event(std::string_view name, uint32_t before) const {
+uint32_t Causes::last_event(std::string_view name) const {
     for (auto at = frames_.rbegin(); at != frames_.rend(); ++at) {
-        if (at->first < before && at->second.event == name) return at->first;
+        if (at->second.event == name) return at->first;
+    }
+    return 0;
+}
+
+uint32_t Causes::last_event_heard(std::string_view name, uint32_t before) const {
+    const auto end = frames_.lower_bound(before);
+    const uint16_t hearer = frame(before) != nullptr ? frame(before)->source : wire::kHostId;
+    for (auto at = std::make_reverse_iterator(end); at != frames_.rend(); ++at) {
+        if (at->second.event == name && at->second.source != hearer) return at->first;
     }
     return 0;
 }

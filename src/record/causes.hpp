@@ -98,8 +98,10 @@ public:
     const Frame* frame(uint32_t number) const;
     const HandlerRun* run(uint32_t number) const;
     const Call* call(uint32_t number) const;
-    // The last frame with a user event of that name, before that frame; 0: none.
-    uint32_t last_event(std::string_view name, uint32_t before = UINT32_MAX) const;
+    // The last frame with a user event of that name; 0: none.
+    uint32_t last_event(std::string_view name) const;
+    // The same before that frame, and of another sender: no node hears what it sends itself.
+    uint32_t last_event_heard(std::string_view name, uint32_t before) const;
     std::vector<std::string> events_seen() const;  // their names
     // The last write to any of `count` words from `address` on.
     std::optional<Deed> last_write(const sim::WitnessedNode& node, uint16_t address,

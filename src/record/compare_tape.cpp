@@ -70,7 +70,7 @@ CompareTape::CompareTape(const mcap::Reader& reader, std::set<std::string> only,
     : reader_(reader), cursor_(reader), only_(std::move(only)), until_(until) {}
 
 bool CompareTape::counts(const std::string& name) const {
-    if (name == kRunTopic || name.starts_with("/camera/")) return false;
+    if (name == kRunTopic || name.starts_with(kCameraTopics)) return false;
     return only_.empty() || only_.contains(name);
 }
 

@@ -1,6 +1,8 @@
 #include "record/past_bus.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <ranges>
 #include <utility>
 
 #include "base/json.hpp"
@@ -107,13 +109,20 @@ void PastBus::see_event(std::string_view text) {
 void PastBus::see_node(std::string_view text) {
     const auto json = read_json(text);
     const auto* const tree = std::get_if<JsonValue>(&json);
-    if (tree == nullptr) return;
-    names_[static_cast<uint16_t>(number_in(*tree, "node"))] = text_in(*tree, "name");
+    const std::string file = tree == nullptr ? "" : text_in(*tree, "file");
+    if (file.empty()) return;  // it only came or went
+    const auto node = static_cast<uint16_t>(number_in(*tree, "node"));
+    names_[node] = text_in(*tree, "name");
+    labels_[node] = std::filesystem::path(file).stem().string();
 }
 
 std::string PastBus::name_of(uint16_t node) const {
+    const std::string number = "node " + std::to_string(node);
     const auto found = names_.find(node);
-    return found != names_.end() ? found->second : "node " + std::to_string(node);
+    if (found == names_.end()) return number;
+    const std::string& name = found->second;
+    const bool shared = std::ranges::count(names_ | std::views::values, name) > 1;
+    return shared ? name + " (" + number + ")" : name;
 }
 
 const aesl::Script* PastBus::script_of(uint16_t node) const {
@@ -166,7 +175,11 @@ Time PastBus::next() const {
     const Item& item = items_[item_];
     Time at = item.at;
     const Line* const line = next_line();
-    if (line != nullptr && !comes_before_line(item)) at = std::max(at, line->at + Duration(1));
+    // While a debugger paused the plan, its clock stood, and that of the bus did not.
+    if (line != nullptr) {
+        at =
+            comes_before_line(item) ? std::min(at, line->at) : std::max(at, line->at + Duration(1));
+    }
     return std::max(at, last_ + Duration(1));
 }
 
@@ -218,6 +231,8 @@ void PastBus::apply(const Item& item, std::vector<run::BusEvent>& heard) {
         run_->fail(failed->why);
     } else if (std::holds_alternative<Aborted>(item.what)) {
         run_->abort();
+    } else if (const auto* const asked = std::get_if<run::Request>(&item.what)) {
+        run_->do_as_asked(*asked);  // what only paused it is in the times of all others
     }
 }
 

@@ -51,13 +51,15 @@ public:
 
     // By the number of the frame.
     const std::map<uint32_t, Event>& events() const { return events_; }
-    // Names of nodes by their ids, as they described themselves.
-    const std::map<uint16_t, std::string>& node_names() const { return names_; }
-    // "drive", or "node 3" where nobody knows.
+    // What channels and files of nodes are called, by their ids: the name, or NAME-ID.
+    const std::map<uint16_t, std::string>& labels() const { return labels_; }
+    // "drive", or "node 3" where nobody knows; "drive (node 3)" where another has that name.
     std::string name_of(uint16_t node) const;
     const aesl::Project& project() const { return project_; }
     // That of the project for a node; nullptr without one.
     const aesl::Script* script_of(uint16_t node) const;
+    // It was ended before it had begun, or nothing of it was written.
+    bool never_began() const { return lines_.empty(); }
     // Who ended the run.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
 
@@ -120,7 +122,8 @@ private:
     std::vector<Emission> emissions_;
     std::map<size_t, std::vector<Told>> late_;  // before the line with that index
     std::map<uint32_t, Event> events_;
-    std::map<uint16_t, std::string> names_;
+    std::map<uint16_t, std::string> names_;  // of nodes, as they described themselves
+    std::map<uint16_t, std::string> labels_;
     size_t places_ = 0;
     size_t item_ = 0;  // the next
     size_t line_ = 0;

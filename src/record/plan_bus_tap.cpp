@@ -38,6 +38,14 @@ void PlanBusTap::hears(const run::BusEvent& event, Time at) {
 }
 
 // Once: more than one may ask for it.
+void PlanBusTap::asked(const run::Request& request, Time at) {
+    const bool goes_on = std::holds_alternative<run::Continue>(request) ||
+                         std::holds_alternative<run::Step>(request) ||
+                         std::holds_alternative<run::StepEvent>(request);
+    if (goes_on && began_us_ >= 0) began_us_ = (clock_() - at).count();
+    recorder_.input_at(at, request);
+}
+
 void PlanBusTap::aborts(const std::string& by) {
     if (!aborted_.exchange(true)) recorder_.input_at(now(), Aborted{by});
 }

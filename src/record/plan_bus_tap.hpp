@@ -27,9 +27,14 @@ public:
     // By the clock of the run; from any thread.
     Time now() const;
 
+    // On the deciding thread, of the debugger of the run. While it pauses the run, whose clock
+    // stands then, the bus goes on.
+    void asked(const run::Request& request, Time at);
+
     // ---- embed::BusTap ----
     void begin(const aesl::CommonDefinitions& common, std::function<Time()> clock) override;
     void described(const debug::NodeView& node) override { bus_.described(now(), node); }
+    void happened(const debug::Event& event) override { bus_.happened(now(), event); }
     void node(const std::string& name, toolbox::BusNodes::Change change) override;
     uint32_t frame(const wire::Frame& frame, const run::BusEvent* sent) override;
     void tokens(uint16_t first) override { recorder_.input_at(now(), TokensMoved{first}); }

@@ -28,7 +28,8 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
         const auto& faults = run.world()->session().world().chaos();
         if (!faults.empty()) about.chaos = sim::format_chaos(faults);
     }
-    auto tape = TRY(start_tape(path, about, pack(files.all()), pace));
+    PackedFiles packed = pack(files.all());
+    auto tape = TRY(start_tape(path, about, packed, pace));
     // make_unique cannot reach the constructor.
     std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
     std::vector<int>& listeners = made->listeners_;
@@ -36,6 +37,8 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
     listeners.push_back(run.listen(
         [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; }));
     made->run_ = &run;
+    for (auto& [name, content] : packed.files) content.clear();
+    made->files_ = std::move(packed);
     if (!about.is_of_bus()) return made;
     made->tap_ = std::make_unique<PlanBusTap>(*made->tape_, *made->recorder_);
     listeners.push_back(
@@ -44,7 +47,36 @@ Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& p
     return made;
 }
 
+void PlanRecording::follow(run::Debugger& debugger) {
+    debugger_ = &debugger;
+    run::Debugger::Follower follower;
+    follower.asked = [this](const run::Request& request, Time at) { asked(request, at); };
+    if (!tap_) {
+        follower.comes = [this](uint64_t place, Time) {
+            recorder_->set_turn(static_cast<uint32_t>(place));
+        };
+    }
+    debugger.follow(std::move(follower));
+}
+
+// A plan that was named by its file is that file of the recording.
+void PlanRecording::asked(const run::Request& request, Time at) {
+    if (!does_something(request)) return;
+    run::Request named = request;
+    if (auto* const stop = std::get_if<run::AddBreakpoint>(&named)) {
+        std::string& plan = stop->breakpoint.plan;
+        const std::string name = files_.name_of(plan);
+        if (files_.files.contains(name)) plan = name;
+    }
+    if (tap_) {
+        tap_->asked(named, at);
+    } else {
+        recorder_->input_at(at, std::move(named));
+    }
+}
+
 Status PlanRecording::end() {
+    if (debugger_ != nullptr) std::exchange(debugger_, nullptr)->follow({});
     for (const int listener : std::exchange(listeners_, {})) run_->unlisten(listener);
     run_->defer_aborts(false);
     if (tap_) {

@@ -18,6 +18,7 @@
 #include "record/plan_bus_tap.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
+#include "run/debugger.hpp"
 
 namespace vagus::record {
 
@@ -32,6 +33,11 @@ public:
     static Result<std::unique_ptr<PlanRecording>> begin(const std::string& path, RunFile about,
                                                         const FilesRead& files,
                                                         embed::PreparedRun& run, Pace pace);
+    // Before the run, beside a world: what the cameras see is recorded, too (check_cameras()).
+    void follow_cameras() { recorder_->follow_cameras(); }
+    // Before the run: what is asked of its debugger is recorded; in virtual time the turn of such
+    // an input is its place in the run (Debugger::Follower). Borrowed until end().
+    void follow(run::Debugger& debugger);
     // After the run, while its world is there. The first thing that went wrong. The same run may be
     // done once more: that is not recorded.
     Status end();
@@ -41,11 +47,14 @@ public:
 private:
     PlanRecording(std::unique_ptr<FileTape> tape, std::string_view run)
         : tape_(std::move(tape)), recorder_(std::make_unique<Recorder>(*tape_, run)) {}
+    void asked(const run::Request& request, Time at);
 
     std::unique_ptr<FileTape> tape_;
     std::unique_ptr<Recorder> recorder_;
     std::unique_ptr<PlanBusTap> tap_;  // on a real bus
     embed::PreparedRun* run_ = nullptr;
+    run::Debugger* debugger_ = nullptr;
+    PackedFiles files_;           // their names; not what is in them
     std::vector<int> listeners_;  // of the run
     Time last_{};                 // line of the trace
 };

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/base64.hpp"
 #include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "base/trig.hpp"
 #include "record/bus_messages.hpp"
+#include "sim/png.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus::record {
@@ -49,11 +51,6 @@ struct Shape {
     sim::Colour colour;
 };
 
-std::string stamp(Time at) {
-    const int64_t us = at.count();
-    return fmt::format(R"({{"sec":{},"nsec":{}}})", us / 1000000, us % 1000000 * 1000);
-}
-
 std::string entity(const Shape& shape, Time at) {
     const std::string pose =
         fmt::format(R"("pose":{{"position":{{"x":{:.6f},"y":{:.6f},"z":{:.3f}}},)"
@@ -69,8 +66,8 @@ std::string entity(const Shape& shape, Time at) {
         R"("frame_locked":false,"metadata":[],"{}":[{{{},)"
         R"("size":{{"x":{:.4f},"y":{:.4f},"z":{:.4f}}},)"
         R"("color":{{"r":{:.3f},"g":{:.3f},"b":{:.3f},"a":1}}{}}}]}})",
-        stamp(at), json_quote(shape.id), round ? "cylinders" : "cubes", pose, x, y, shape.height,
-        shape.colour.r, shape.colour.g, shape.colour.b, more);
+        stamp_json(at), json_quote(shape.id), round ? "cylinders" : "cubes", pose, x, y,
+        shape.height, shape.colour.r, shape.colour.g, shape.colour.b, more);
 }
 
 Shape shape_of(const sim::ObjectView& object) {
@@ -100,6 +97,13 @@ std::string scene_update(const std::vector<Shape>& shapes, Time at) {
     std::string text = R"({"deletions":[],"entities":[)";
     for (size_t i = 0; i < shapes.size(); ++i) text += (i > 0 ? "," : "") + entity(shapes[i], at);
     return text + "]}";
+}
+
+// ---- foxglove.CompressedImage ----
+
+std::string compressed_image(const sim::Picture& picture, const std::string& robot, Time at) {
+    return fmt::format(R"({{"timestamp":{},"frame_id":{},"data":"{}","format":"png"}})",
+                       stamp_json(at), json_quote(robot), base64(sim::write_png(picture)));
 }
 
 }  // namespace
@@ -149,6 +153,44 @@ void Recorder::follow(session::SimSession& session) {
     poses(now());
 }
 
+Status check_cameras(const sim::World* world) {
+    if (world == nullptr) {
+        return Error{Code::Refused,
+                     "--record-camera: only a simulated world has cameras to record; add --world, "
+                     "or leave it out"};
+    }
+    const auto robots = world->robots();
+    const bool any = std::any_of(robots.begin(), robots.end(), [world](const auto& robot) {
+        return world->has_camera(robot.id);
+    });
+    if (any) return Status::done();
+    return Error{Code::Refused,
+                 "--record-camera: no robot of this world has a camera; a carbot has one"};
+}
+
+void Recorder::follow_cameras() {
+    for (const sim::RobotView& robot : session_->world().robots()) {
+        if (!session_->world().has_camera(robot.id)) continue;
+        const std::string name(robot.name);
+        const uint16_t topic = tape_.declare({.name = std::string(kCameraTopics) + name,
+                                              .schema = "foxglove.CompressedImage",
+                                              .may_be_dropped = true});
+        cameras_.push_back({robot.id, name, topic});
+    }
+    pictures(now());
+}
+
+// The picture is packed where it is written, if there is time for it.
+void Recorder::pictures(Time at) {
+    for (const Camera& one : cameras_) {
+        sim::Picture picture = std::move(session_->world().render(one.robot).value());
+        const size_t bytes = picture.pixels.size();
+        tape_.put_later(one.topic, at, bytes, [picture = std::move(picture), name = one.name, at] {
+            return compressed_image(picture, name, at);
+        });
+    }
+}
+
 void Recorder::follow_bus(session::SimSession& session) {
     session_ = &session;
     frames_ = tape_.declare({.name = std::string(kFramesTopic), .json = false});
@@ -173,6 +215,7 @@ void Recorder::instant() {
         for (Node& node : nodes_) variables(node, at, all);
     }
     if (!of_robot_ && at % kPosesEvery == Duration::zero()) poses(at);
+    if (at % kCamerasEvery == Duration::zero()) pictures(at);
     if (at % kCheckEvery == Duration::zero()) check(at);
     if (after_instant_) after_instant_(at);
 }
@@ -341,7 +384,7 @@ void Recorder::scene(Time at) {
     std::string update = scene_update(shapes, at);
     // 1: all entities of this topic before these.
     const std::string all =
-        fmt::format(R"("deletions":[{{"timestamp":{},"type":1,"id":""}}])", stamp(at));
+        fmt::format(R"("deletions":[{{"timestamp":{},"type":1,"id":""}}])", stamp_json(at));
     update.replace(update.find(R"("deletions":[])"), std::string_view(R"("deletions":[])").size(),
                    all);
     tape_.put(scene_, at, std::move(update));

@@ -30,10 +30,14 @@ namespace vagus::record {
 constexpr Duration kVariablesEvery = std::chrono::milliseconds(20);
 constexpr Duration kPictureEvery = std::chrono::seconds(10);  // all variables of a node
 constexpr Duration kPosesEvery = std::chrono::milliseconds(100);
+constexpr Duration kCamerasEvery = std::chrono::milliseconds(100);
 constexpr Duration kCheckEvery = std::chrono::seconds(1);
 
 // One for all of a check (Recorder::check_text()), as a person compares it: 16 digits.
 std::string state_hash(std::string_view check);
+
+// Whether there are cameras for --record-camera; nullptr: the run has no world. The Error says so.
+Status check_cameras(const sim::World* world);
 
 class Recorder {
 public:
@@ -50,6 +54,9 @@ public:
     // the bus gets later are outside of the run: what comes from there is an input.
     void follow(session::SimSession& session);
     void forget() { session_ = nullptr; }
+    // Behind follow(): also what the robots' cameras see. They are samples for people: nothing of
+    // the run follows from them, and they are not compared.
+    void follow_cameras();
     // After what is recorded of each instant: things may be done to the world here.
     void after_instant(std::function<void(Time)> act) { after_instant_ = std::move(act); }
 
@@ -85,6 +92,12 @@ private:
         bool pictured = false;
     };
 
+    struct Camera {
+        sim::RobotId robot;
+        std::string name;
+        uint16_t topic = 0;
+    };
+
     void declare();
     void follow_bus(session::SimSession& session);
     void instant();
@@ -95,6 +108,7 @@ private:
     void variables(Node& node, Time at, bool all);
     void scene(Time at);
     void poses(Time at);
+    void pictures(Time at);
     void check(Time at);
     std::string nodes_check() const;
     std::string bodies_check() const;
@@ -119,6 +133,7 @@ private:
     uint32_t turn_ = 0;
     bool turn_begins_ = false;
     std::vector<Node> nodes_;
+    std::vector<Camera> cameras_;
     std::string objects_;     // as the scene told them last
     uint64_t plan_hash_ = 0;  // of all lines of the trace so far
     std::map<std::string, std::map<std::string, int, std::less<>>, std::less<>> numbers_;

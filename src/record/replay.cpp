@@ -323,7 +323,9 @@ public:
         Time last{};
         prepared_->listen([&last](const plan::TraceEvent& event) { last = event.at; });
         if (is_of_studio() && session() != nullptr) begin_as_in_studio();
+        if (about_.verb == kDebugVerb) begin_as_debugged(recorder);
         const run::Ended ended = TRY(prepared_->run(debugger_ ? &*debugger_ : nullptr));
+        if (debugger_) debugger_->follow({});
         hear_debugger();
         TRY(changed_);
         plan_over_ = true;
@@ -361,6 +363,50 @@ private:
         prepared_->pace([this](Time) { between_instants(); });
         session()->world().stops_with_nodes();
         if (is_due() && inputs_[next_input_].turn == 0) obey(do_turn(*recorder_));
+    }
+
+    // What was asked of its debugger is asked again at the same places of the run.
+    void begin_as_debugged(Recorder& recorder) {
+        std::vector<Input> others;
+        for (Input& one : inputs_) {
+            const bool is_asked = std::holds_alternative<run::Request>(one.what) ||
+                                  std::holds_alternative<HeardAhead>(one.what);
+            (is_asked ? asks_ : others).push_back(std::move(one));
+        }
+        inputs_ = std::move(others);
+        debugger_.emplace(plan_->graph(), run::Debugger::At::Start);
+        debugger_->while_paused([this] { let_debugged_go_on(); });
+        debugger_->follow({.comes =
+                               [this, &recorder](uint64_t place, Time now) {
+                                   recorder.set_turn(static_cast<uint32_t>(place));
+                                   ask_at(place, now, recorder);
+                               },
+                           .asked = {}});
+    }
+
+    void ask_at(uint64_t place, Time now, Recorder& recorder) {
+        asked_until_ = now;
+        while (next_ask_ < asks_.size() && asks_[next_ask_].turn <= place) {
+            const Input& one = asks_[next_ask_++];
+            if (std::holds_alternative<HeardAhead>(one.what)) {
+                if (session() != nullptr) session()->hear_ahead();
+            } else {
+                recorder.input_at(now, one.what);
+                ask(std::get<run::Request>(one.what));
+            }
+        }
+    }
+
+    // Nobody asks any more: of a recording that was cut off nothing is known from here on. Where it
+    // is another run by now, it goes on.
+    void let_debugged_go_on() {
+        if (another_way_ || next_ask_ < asks_.size()) {
+            recorder_->input_at(asked_until_, run::Request(run::Continue{}));
+            return post(run::Continue{});
+        }
+        tape_->end();
+        over_ = true;
+        post(run::Abort{});
     }
 
     // The world lives on when its plan is over.
@@ -412,9 +458,15 @@ private:
         run::Request asked = request;
         if (auto* const stop = std::get_if<run::AddBreakpoint>(&asked)) {
             std::string& plan = stop->breakpoint.plan;
-            if (!plan.empty()) plan = path_of(plan);
+            if (is_of_studio() ? !plan.empty() : has_file(plan)) plan = path_of(plan);
         }
         post(std::move(asked));
+    }
+
+    bool has_file(const std::string& name) const {
+        return std::ranges::any_of(plan_->plans(), [this, &name](const plan::Plan& one) {
+            return name_of(one.file) == name;
+        });
     }
 
     void take(const PlanFiles& files) override {
@@ -502,6 +554,9 @@ private:
     std::optional<embed::PlanVersions> versions_;
     std::optional<run::Debugger> debugger_;  // where something asks it
     std::map<uint64_t, Asked> asked_;        // by the debugger's number
+    std::vector<Input> asks_;                // of its debugger, of a run with kDebugVerb
+    size_t next_ask_ = 0;
+    Time asked_until_{};
     EndingTape* tape_ = nullptr;
     bool plan_over_ = false;
     bool over_ = false;

@@ -21,13 +21,14 @@
 namespace vagus::record {
 
 constexpr std::string_view kStudioVerb = "studio";
+constexpr std::string_view kDebugVerb = "plan debug";
 constexpr std::string_view kNetVerb = "net record";
 constexpr std::string_view kBusKind = "bus";
 
 // Paths are names of attachments.
 struct RunFile {
     std::string kind = "simulated";         // or kBusKind
-    std::string verb = {};                  // "plan run", "sim", kNetVerb, kStudioVerb
+    std::string verb = {};                  // "plan run", "sim", kDebugVerb, kNetVerb, kStudioVerb
     std::vector<std::string> command = {};  // as it was typed, for people
     std::string plan = {};
     std::string world = {};

@@ -26,6 +26,8 @@ public:
     static Result<std::unique_ptr<SimRecording>> begin(const std::string& path, RunFile about,
                                                        const FilesRead& files,
                                                        embed::RobotsRun& run, Pace pace);
+    // As PlanRecording::follow_cameras().
+    void follow_cameras() { recorder_->follow_cameras(); }
     // The first thing that went wrong.
     Status end();
     uint64_t dropped() const { return tape_->dropped(); }

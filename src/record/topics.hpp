@@ -22,6 +22,7 @@ constexpr std::string_view kEventsTopic = "/bus/events";
 constexpr std::string_view kNodesTopic = "/bus/nodes";
 constexpr std::string_view kPosesTopic = "/world/poses";
 constexpr std::string_view kSceneTopic = "/world/scene";
+constexpr std::string_view kCameraTopics = "/camera/";  // and the name of the robot
 constexpr std::string_view kChaosTopic = "/world/chaos";
 
 // How a channel is declared.
@@ -39,6 +40,9 @@ constexpr uint64_t nanoseconds(Time at) {
 constexpr Time time_of(uint64_t ns) {
     return Time(static_cast<int64_t>(ns / 1000));
 }
+
+// A time as members of Foxglove's schemas have it.
+std::string stamp_json(Time at);
 
 // The JSON schema of that name: "foxglove.SceneUpdate". Empty: there is none.
 std::string_view schema_text(std::string_view name);

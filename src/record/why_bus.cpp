@@ -4,67 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 
-#include "aesl/mentions.hpp"
 #include "aesl/project.hpp"
+#include "record/emitters.hpp"
 #include "record/past_bus.hpp"
 #include "record/why_walk.hpp"
 
 namespace vagus::record {
 
 namespace {
-
-using aesl::Mention;
-using aesl::MentionKind;
-
-// A part of a script: what is before the first handler, a handler, or a sub.
-struct Section {
-    enum class Kind { Init, Handler, Sub };
-    Kind kind = Kind::Init;
-    std::string name;
-    int line = 1;
-    auto operator<=>(const Section&) const = default;
-};
-
-struct Emitters {
-    std::set<int> lines;         // of the script, that emit it
-    std::set<Section> sections;  // handlers, or the beginning, from which one is reached
-};
-
-// From which handlers of a script an event can come, through its subs.
-Emitters emitters_of(const aesl::Script& script, const aesl::CommonDefinitions& common,
-                     const std::string& event) {
-    Emitters found;
-    std::map<std::string, std::set<Section>> callers;  // by sub
-    std::set<Section> open;
-    Section here;
-    for (const Mention& one : aesl::mentions(script.source, common)) {
-        const bool sub = one.kind == MentionKind::Sub;
-        if (one.kind == MentionKind::Event && one.handles) {
-            here = {Section::Kind::Handler, one.name, one.at.line};
-        } else if (sub && one.declares) {
-            here = {Section::Kind::Sub, one.name, one.at.line};
-        } else if (sub) {
-            callers[one.name].insert(here);
-        } else if (one.kind == MentionKind::Event && one.name == event) {
-            found.lines.insert(one.at.line);
-            open.insert(here);
-        }
-    }
-    std::set<Section> seen;
-    while (!open.empty()) {
-        const Section one = open.extract(open.begin()).value();
-        if (!seen.insert(one).second) continue;
-        if (one.kind == Section::Kind::Sub) {
-            open.insert(callers[one.name].begin(), callers[one.name].end());
-        } else {
-            found.sections.insert(one);
-        }
-    }
-    return found;
-}
 
 bool is_global(const aesl::CommonDefinitions& common, const std::string& event) {
     return std::ranges::any_of(common.events,
@@ -103,7 +51,7 @@ void Walk::frame_of_bus_node(uint32_t number, const Causes::Frame& frame) {
         add(std::move(before));
         return;
     }
-    const uint32_t heard = causes_.last_event(section.name, number);
+    const uint32_t heard = causes_.last_event_heard(section.name, number);
     const Causes::Frame* const cause = causes_.frame(heard);
     if (cause == nullptr) return;
     before.at = cause->at;
@@ -123,7 +71,7 @@ std::optional<Error> Walk::not_in_frames(const Question& question) const {
                      "an actor of the plan"};
     }
     if (question.about != About::Variable) return std::nullopt;
-    for (const auto& [id, name] : past->node_names()) {
+    for (const auto& [id, name] : past->labels()) {
         if (!question.name.starts_with(name + ".")) continue;
         return Error{Code::Refused,
                      fmt::format("this is a recording of a real bus: what wrote {} is in no frame; "

@@ -267,6 +267,8 @@ public:
     Mailbox mailbox_;
     // From here on: the deciding thread's.
     std::function<void()> meanwhile_;
+    Follower follower_;
+    uint64_t place_ = 0;  // of the run, for the follower
     Breakpoints breakpoints_;
     plan::Machine* machine_ = nullptr;
     EventGate* gate_ = nullptr;
@@ -310,11 +312,16 @@ void Debugger::while_paused(std::function<void()> meanwhile) {
     core_->meanwhile_ = std::move(meanwhile);
 }
 
+void Debugger::follow(Follower follower) {
+    core_->follower_ = std::move(follower);
+}
+
 void Debugger::attach(plan::Machine& machine, EventGate& gate, std::function<void()> wake) {
     Core& core = *core_;
     core.machine_ = &machine;
     core.gate_ = &gate;
     core.now_ = Time{0};
+    core.place_ = 0;
     core.breakpoints_.start_again();
     core.met_.clear();
     core.waiting_.clear();
@@ -335,8 +342,13 @@ bool Debugger::serve(Time now) {
     core.stop_if_met();
     if (core.paused_ && !was_paused) return true;  // the executor first pauses everything
     if (core.abort_asked_ || core.machine_->over()) return false;
+    if (core.follower_.comes) core.follower_.comes(core.place_, now);
     std::optional<PostedRequest> posted = core.next_request();
-    if (!posted) return false;
+    if (!posted) {
+        ++core.place_;
+        return false;
+    }
+    if (core.follower_.asked) core.follower_.asked(posted->request, now);
     if (core.must_wait(*posted)) {
         core.waiting_.push_back(std::move(*posted));
         return true;

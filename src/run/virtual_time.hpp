@@ -25,6 +25,7 @@
 #include "base/rng.hpp"
 #include "plan/machine.hpp"
 #include "run/code.hpp"
+#include "run/debug_values.hpp"
 #include "run/fiber.hpp"
 #include "run/held_events.hpp"
 #include "run/options.hpp"
@@ -60,6 +61,9 @@ public:
     void move_tokens(uint16_t token) { numbers_.move_to(token); }
     // Ends the run as abort() does, but with the result Error, at once.
     void fail(std::string_view why);
+    // Does at once what was asked of the debugger of that run: a variable is set, an event raised,
+    // the run ended. What cannot be done here is not done, as all else that is asked.
+    void do_as_asked(const Request& request);
 
     // From now on what is random in the code of actors is drawn from that seed. As set().
     void reseed(uint64_t seed) { random_ = SplitMix64(seed); }

@@ -13,6 +13,7 @@
 #include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "sim/ground.hpp"
+#include "sim/png.hpp"
 #include "sim/sd_card.hpp"
 #include "sim/world.hpp"
 #include "sim/world_file.hpp"
@@ -111,6 +112,18 @@ TEST(Ground, WhatIsNoPngIsRefusedWithItsName) {
     const Result<Picture> picture = read_png("GIF89a", "floor.png");
     ASSERT_FALSE(picture.ok());
     EXPECT_EQ(picture.error().what.substr(0, 10), "floor.png:");
+}
+
+TEST(Ground, APictureIsReadAsItWasWritten) {
+    const Picture picture{.width = 3,
+                          .height = 2,
+                          .pixels = {255, 0, 0, 0, 255, 0, 0, 0, 255,  //
+                                     1, 2, 3, 4, 5, 6, 7, 8, 9}};
+    const Result<Picture> read = read_png(write_png(picture), "written");
+    ASSERT_TRUE(read.ok()) << read.error().what;
+    EXPECT_EQ(read.value().width, 3u);
+    EXPECT_EQ(read.value().height, 2u);
+    EXPECT_EQ(read.value().pixels, picture.pixels);
 }
 
 TEST(Ground, APictureWithOnePixelTooManyIsRefused) {

@@ -1,9 +1,10 @@
-// Reads PNG with libpng's simple interface; nothing of that library shows elsewhere.
+// With libpng's simple interface; nothing of that library shows elsewhere.
+#include "sim/png.hpp"
+
 #include <png.h>
 
+#include <cassert>
 #include <cstring>
-
-#include "sim/ground.hpp"
 
 namespace vagus::sim {
 namespace {
@@ -33,6 +34,23 @@ Result<Picture> read_png(std::string_view bytes, const std::string& file) {
     if (png_image_finish_read(&image, &white, picture.pixels.data(), 0, nullptr) == 0)
         return wrong(file, image.message);
     return picture;
+}
+
+std::string write_png(const Picture& picture) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.width = picture.width;
+    image.height = picture.height;
+    image.format = PNG_FORMAT_RGB;
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string bytes(size, '\0');
+    [[maybe_unused]] const int written = png_image_write_to_memory(
+        &image, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr);
+    assert(written != 0 && "the picture has as many pixels as it says");
+    bytes.resize(size);
+    return bytes;
 }
 
 }  // namespace vagus::sim

@@ -65,7 +65,9 @@ void Coverage::add(const Coverage& other) {
         }
     }
     for (const auto& [file, from] : other.scripts) {
-        ScriptCoverage& to = scripts[file];
+        const auto [at, is_new] = scripts.try_emplace(file);
+        ScriptCoverage& to = at->second;
+        to.only_told = from.only_told && (is_new || to.only_told);
         for (const auto& [line, count] : from.lines) to.lines[line] += count;
         for (const auto& [branch, counts] : from.branches) {
             for (size_t i = 0; i < counts.size(); ++i) to.branches[branch][i] += counts[i];
@@ -99,6 +101,31 @@ void PlanCounter::start(size_t level, std::string_view actor) {
     here.sub_plan = index < 0 ? -1 : plan.actors[static_cast<size_t>(index)].sub_plan;
 }
 
+std::string PlanCounter::name_of(size_t level, const plan::EventRaised& raised) const {
+    return raised.global ? std::string(raised.supervisor)
+                         : fmt::format("{}.{}", levels_[level].actor, raised.supervisor);
+}
+
+bool PlanCounter::fits(const plan::TraceEvent& event) const {
+    const auto level = static_cast<size_t>(run::level_of(event));
+    if (std::holds_alternative<plan::PlanStarted>(event.what)) {
+        return level == 0 || (level <= levels_.size() && levels_[level - 1].sub_plan >= 0);
+    }
+    if (level >= levels_.size()) return false;
+    const PlanCoverage& counts = counts_[levels_[level].plan];
+    if (const auto* started = std::get_if<plan::ActorStarted>(&event.what)) {
+        return counts.actors.contains(std::string(started->actor));
+    }
+    if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
+        return counts.states.contains(fmt::format("{}: {}", ended->actor, ended->state));
+    }
+    if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
+        return counts.events.contains(
+            fmt::format("{}: {}", name_of(level, *raised), raised->event));
+    }
+    return true;
+}
+
 void PlanCounter::see(const plan::TraceEvent& event) {
     const auto level = static_cast<size_t>(run::level_of(event));
     if (std::holds_alternative<plan::PlanStarted>(event.what)) {
@@ -110,9 +137,7 @@ void PlanCounter::see(const plan::TraceEvent& event) {
     } else if (const auto* ended = std::get_if<plan::ActorEnded>(&event.what)) {
         ++counts_of(level).states[fmt::format("{}: {}", ended->actor, ended->state)];
     } else if (const auto* raised = std::get_if<plan::EventRaised>(&event.what)) {
-        const std::string name =
-            raised->global ? std::string(raised->supervisor)
-                           : fmt::format("{}.{}", levels_[level].actor, raised->supervisor);
+        const std::string name = name_of(level, *raised);
         ++counts_of(level).supervisors[name];
         ++counts_of(level).events[fmt::format("{}: {}", name, raised->event)];
     }
@@ -157,6 +182,11 @@ std::string format_table(const Coverage& coverage) {
     }
     for (const auto& [file, script] : coverage.scripts) {
         const auto taken = [](const auto& one) { return one.second > 0; };
+        if (script.only_told) {
+            text += fmt::format("{}\n  {:<12} {} that frames tell of\n", file, "lines",
+                                script.lines.size());
+            continue;
+        }
         text += fmt::format("{}\n  {:<12} {}\n  {:<12} {}\n", file, "lines",
                             share(script.lines, taken), "branches", branches_taken(script));
     }
@@ -173,9 +203,18 @@ std::string format_missing(const PlanCoverage& coverage) {
     return text;
 }
 
+std::string format_told(const ScriptCoverage& coverage) {
+    std::string text;
+    for (const auto& [line, count] : coverage.lines) {
+        text += fmt::format("  {:<12} {}: {}\n", "line", line, count);
+    }
+    return text;
+}
+
 std::string format_lcov(const Coverage& coverage) {
     std::string text;
     for (const auto& [file, script] : coverage.scripts) {
+        if (script.only_told) continue;
         text += fmt::format("TN:\nSF:{}\n", file);
         for (const auto& [branch, counts] : script.branches) {
             const auto [line, number] = branch;

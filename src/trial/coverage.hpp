@@ -34,6 +34,8 @@ struct ScriptCoverage {
     std::map<int, uint64_t> lines;  // how often the busiest instruction of a line was executed
     // By line, and number among its branches: how often the condition held, and did not.
     std::map<std::pair<int, int>, std::array<uint64_t, 2>> branches;
+    // Of a real robot: these lines are those that frames tell of; nothing is known of others.
+    bool only_told = false;
 };
 
 // By file.
@@ -57,6 +59,8 @@ class PlanCounter {
 public:
     // The graph is borrowed.
     explicit PlanCounter(const plan::Graph& graph);
+    // Whether a run of that plan can say so next: of lines that were not made by one.
+    bool fits(const plan::TraceEvent& event) const;
     void see(const plan::TraceEvent& event);
     Coverage coverage() const;
 
@@ -67,6 +71,7 @@ private:
         int sub_plan = -1;       // that it calls
     };
     void start(size_t level, std::string_view actor);
+    std::string name_of(size_t level, const plan::EventRaised& raised) const;
     PlanCoverage& counts_of(size_t level) { return counts_[levels_[level].plan]; }
 
     const plan::Graph& graph_;
@@ -80,7 +85,10 @@ private:
 std::string format_table(const Coverage& coverage);
 // Those that nothing went through, by kind, a line each.
 std::string format_missing(const PlanCoverage& coverage);
-// Scripts as the tracefile of lcov 1.16 (man geninfo, "FILES").
+// The lines of a script that frames told of, a line each.
+std::string format_told(const ScriptCoverage& coverage);
+// Scripts as the tracefile of lcov 1.16 (man geninfo, "FILES"); without those of which only some
+// lines are known, for it would take the others for no lines at all.
 std::string format_lcov(const Coverage& coverage);
 
 // One line of JSON, for a pipe between our own processes, and back.

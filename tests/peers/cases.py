@@ -8,8 +8,8 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import (BREAKPOINT_SET_RESULT, GET_NODE_DESCRIPTION, GET_VARIABLES, LIST_NODES, LOCAL_EVENT, NAMED_VARIABLE,
-                     NATIVE_FUNCTION, NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, free_port,
-                     list_nodes, listening, patiently, playground, run_vagus, simulated, vagus, variable_names)
+                     NATIVE_FUNCTION, NODE_PRESENT, ROOT, RUN, SET_BYTECODE, VARIABLES, Bus, Display, Program, foreign_switch,
+                     free_port, list_nodes, listening, patiently, playground, run_vagus, simulated, vagus, variable_names)
 
 # Line 7 is that of `onevent ping`; ping is event 0, pong is event 1.
 COUNTER = """<!DOCTYPE aseba-source>
@@ -51,11 +51,7 @@ class Peers(unittest.TestCase):
         return switch_port
 
     def foreign_switch(self, *targets):
-        """asebaswitch; gives its port, somebody listens there."""
-        port = free_port()
-        self.start(Program("asebaswitch", "-p", port, *targets))
-        Bus(port).leave()
-        return port
+        return foreign_switch(self.start, *targets)
 
     def simulated_thymio(self, number):
         """A Thymio II of `vagus sim`; gives the port of the bus."""

@@ -5,6 +5,7 @@ import signal
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import Bus, listening, patiently, run_vagus, vagus
@@ -56,6 +57,24 @@ PLAN = {
                  "states": {"True": "ask", "False": "@terminate"}},
     },
 }
+# The same, with a way that no robot makes it take.
+COVER = {
+    "format": "vagus-plan/1", "name": "Cover", "toolboxes": ["asker"],
+    "configuration": {"n": {"type": "int", "initial": 0}},
+    "start": {"actor": "ask"},
+    "actors": {
+        "ask": dict(PLAN["actors"]["ask"], supervisors={
+            "late": {"template": "Timeout", "in": {"seconds": 60}, "events": {"Timeout": "never"}}}),
+        "more": PLAN["actors"]["more"],
+        "never": {"template": "Wait", "in": {"seconds": 0.1}, "states": {"Done": "@terminate"}},
+    },
+}
+COVERED = """  actors       2 of 3
+  states       3 of 4
+  supervisors  0 of 1
+  events       0 of 1
+  pairs        2 of 3
+"""
 # Waits for what nobody sends.
 WAITING = {
     "format": "vagus-plan/1", "name": "Wait", "start": {"actor": "hear"},
@@ -100,11 +119,14 @@ class BusRecordings(unittest.TestCase):
     def start_recording(self, file=None, *words):
         return self.enterContext(vagus("net", self.target, "record", file or self.file, "--project", self.script, *words))
 
-    def wait_for(self, topic, file=None, count=1):
-        """The recording, as soon as what is written has a message of that topic."""
+    def wait_for(self, topic, file=None, count=1, accept=lambda message: True):
+        """The recording, as soon as what is written has so many messages of that topic."""
         path = file or self.file
         for _ in patiently():
-            if path.exists() and path.stat().st_size > 8 and len((found := Recording(path)).json(topic)) >= count:
+            if not path.exists() or path.stat().st_size <= 8:
+                continue
+            found = Recording(path)
+            if len([one for one in found.json(topic) if accept(one)]) >= count:
                 return found
         raise AssertionError(f"{path} never had {topic}")
 
@@ -331,6 +353,107 @@ class BusRecordings(unittest.TestCase):
                       [{key: line[key] for key in ("do", "name", "state")}
                        for line in Recording(self.file).json("/vagus/input") if line["do"] == "node"])
         self.assertRegex(self.replays(), r"no difference$")
+
+    # ---- vagus plan debug --bus --record ----
+
+    def start_debugger(self, *lines):
+        words = [word for word in self.count_words() if word != "--quiet"]
+        words[1] = "debug"
+        program = self.enterContext(vagus(*words, typing=True))
+        for line in lines:
+            program.type(line)
+        return program
+
+    def test_what_a_debugger_did_is_done_again(self):
+        self.start_robot()
+        program = self.start_debugger("break actor more count 2", "run")
+        program.wait_line("^breakpoint 1, paused at .* more ")
+        for line in ("set n = 4", "delete all", "continue"):
+            program.type(line)
+        program.wait_line("^the run is over at .*: OK")
+        program.type("quit")
+        self.assertEqual(program.wait_end(), 0, program.lines)
+        recording = Recording(self.file)
+        self.assertEqual(recording.json("/vagus/run")[0]["verb"], "plan debug")
+        wrote = [(line["value"], line["by"]) for line in recording.json("/plan/trace") if line["kind"] == "write"]
+        self.assertEqual([value for value, _ in wrote], [0, 1, 2, 4, 5])
+        self.assertEqual(wrote[3], (4, "outside"))
+        asked = [line["do"] for line in recording.json("/vagus/input") if line["do"] not in ("hear", "node", "tokens")]
+        self.assertEqual(asked, ["stop-at", "continue", "set-variable", "stop-no-more", "continue", "end"])
+        self.assertRegex(self.replays(), r"no difference$")
+
+    def test_a_node_that_leaves_while_the_plan_is_paused_has_left_again(self):
+        robot = self.start_robot()
+        program = self.start_debugger("break actor ask count 2", "run")
+        program.wait_line("^breakpoint 1, paused at .* ask ")
+        robot.stop()
+        self.wait_for("/vagus/input", accept=lambda line: line["do"] == "node" and line["state"] == "left")
+        program.type("continue")
+        program.wait_line("^the run is over at .*: Error")
+        program.type("quit")
+        self.assertNotEqual(program.wait_end(), 0)
+        self.assertRegex(self.replays(), r"no difference$")
+
+    def test_a_debugger_that_ends_before_the_run_leaves_nothing_to_compare(self):
+        self.start_robot()
+        program = self.start_debugger("quit")
+        program.wait_end()
+        self.assertEqual(Recording(self.file).json("/plan/trace"), [])
+        self.assertRegex(self.replays(), r" 0 messages compared: no difference$")
+
+    # ---- vagus test RECORDING ----
+
+    def record_cover(self):
+        self.start_robot()
+        plan = self.write("Cover.plan.json", COVER)
+        run_vagus(*self.plan_words(plan, None, "--toolbox", self.toolbox))
+
+    def test_a_run_of_a_robot_counts(self):
+        """ask and more five times, more to ask four times; the last way is that of False."""
+        self.record_cover()
+        told = run_vagus("test", self.file, "--coverage", self.folder / "coverage")
+        self.assertRegex(told, r"^counted .*run\.mcap: [\d.]+ s of Cover\.plan\.json on a real bus\n")
+        # `gone` comes from one line; `far` may have come from either of two.
+        self.assertTrue(told.endswith("\n\nCover.plan.json\n" + COVERED + "answer.aesl\n  lines        1 that frames tell of"), told)
+        drawing = xml.etree.ElementTree.parse(self.folder / "coverage/Cover.svg").getroot()
+        texts = ["".join(one.itertext()) for one in drawing.iter("{http://www.w3.org/2000/svg}text")]
+        counts = list(zip(texts[::2], map(int, texts[1::2])))
+        for one in (("ask", 5), ("more", 5), ("never", 0), ("Told", 5), ("True", 4), ("False", 1), ("Done", 0)):
+            self.assertIn(one, counts)
+        listed = (self.folder / "coverage/coverage.txt").read_text()
+        self.assertIn("  pairs        ask, never\n", listed)
+        self.assertIn(f"\nas far as frames tell, answer.aesl:\n  line         {GONE_LINE}: 5\n", listed)
+        self.assertEqual((self.folder / "coverage/scripts.info").read_text(), "")
+
+    def test_runs_of_a_robot_and_of_tests_are_counted_together(self):
+        """The test takes the only way that the robot did not."""
+        self.record_cover()
+        test = self.write("Cover.test.json", {
+            "format": "vagus-test/1", "plan": "Cover.plan.json", "toolboxes": ["asker.toolbox.json"], "max_time": 20,
+            "answers": {"Ask": [{"after": 5, "state": "Told", "out": {"more": 1}}], "late.Timeout": [{"at": 1}]},
+            "expect": [{"ends": "OK"}]})
+        told = run_vagus("test", test, self.file, self.file)
+        self.assertIn("  actors       3 of 3\n  states       4 of 4\n  supervisors  1 of 1\n  events       1 of 1\n"
+                      "  pairs        3 of 3\n", told)
+        self.assertEqual(told.count("  actors  "), 1)
+        self.assertTrue(told.endswith("1 of 1 runs as expected"), told)
+
+    def test_another_version_of_the_plan_is_counted_apart(self):
+        self.record_cover()
+        other = self.folder / "other.mcap"
+        changed = json.loads(json.dumps(COVER))
+        del changed["actors"]["ask"]["supervisors"], changed["actors"]["never"]
+        plan = self.write("Cover.plan.json", changed)
+        run_vagus(*self.plan_words(plan, other, "--toolbox", self.toolbox))
+        told = run_vagus("test", self.file, other, "--coverage", self.folder / "coverage")
+        self.assertIn("\nCover.plan.json\n" + COVERED, told)
+        self.assertIn(f"{other}:Cover.plan.json\n  actors       2 of 2\n  states       3 of 3\n", told)
+        self.assertTrue((self.folder / "coverage/Cover-2.svg").exists())
+
+    def test_a_recording_without_a_plan_does_not_count(self):
+        self.start_robot()
+        self.start_recording(None, "--wait", "0.2").wait_end()
+        self.assertIn("is the recording of a run without a plan", run_vagus("test", self.file, status=2))
 
     # ---- vagus why ----
 

@@ -327,6 +327,14 @@ def playground(display, folder, ports, ids):
     return Program("asebaplayground", scenario, env=display.env)
 
 
+def foreign_switch(start, *targets):
+    """asebaswitch; gives its port, somebody listens there. `start` begins a program, and ends it with the test."""
+    port = free_port()
+    start(Program("asebaswitch", "-p", port, *targets))
+    Bus(port).leave()
+    return port
+
+
 def simulated(folder, *robots, listen="tcp:127.0.0.1:0", options=()):
     """vagus sim with these robots (as in a world file); its bus is where it listens."""
     world = {"format": "vagus-world/1", "size": [2, 1.5],

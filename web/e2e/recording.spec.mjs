@@ -12,13 +12,13 @@ const examples = path.resolve(import.meta.dirname, '../../examples');
 const decompressHandlers = { zstd: (/** @type {Uint8Array} */ bytes) => zstdDecompressSync(bytes) };
 
 /** Ten simulated seconds of the wall follower. */
-function recorded(/** @type {string} */ folder) {
+function recorded(/** @type {string} */ folder, /** @type {string[]} */ ...options) {
   const file = path.join(folder, 'run.mcap');
   const plan = path.join(examples, 'follow-wall/WallFollow.plan.json');
   const world = path.join(examples, 'follow-wall/hall.world.json');
   const words = ['plan', 'run', plan, '--world', world, '--clock', 'virtual', '--max-time', '10'];
   try {
-    execFileSync(vagusProgram, [...words, '--quiet', '--record', file]);
+    execFileSync(vagusProgram, [...words, '--quiet', '--record', file, ...options]);
   } catch (error) {
     // 5: its time was over.
     assert.equal(/** @type {{ status: number }} */ (error).status, 5);
@@ -71,6 +71,36 @@ void test('every channel, schema, attachment, index and the statistics are read'
     assert.ok(names.includes(name), `${name} is not among ${names}`);
   }
   assert.equal(Number(reader.statistics?.attachmentCount), names.length);
+});
+
+void test('pictures of a camera are read', async (t) => {
+  const reader = await McapIndexedReader.Initialize({
+    readable: readable(readFileSync(recorded(temporaryFolder(t), '--record-camera'))),
+    decompressHandlers,
+  });
+  const channel = [...reader.channelsById.values()].find((one) => one.topic === '/camera/carbot');
+  const schema = reader.schemasById.get(channel?.schemaId ?? 0);
+  assert.equal(schema?.name, 'foxglove.CompressedImage');
+  let last = -1n;
+  let end = 0n;
+  for await (const message of reader.readMessages({ topics: ['/plan/trace'] })) {
+    end = message.logTime;
+  }
+  for await (const message of reader.readMessages({ topics: ['/camera/carbot'] })) {
+    const image = JSON.parse(Buffer.from(message.data).toString());
+    assert.deepEqual(Object.keys(image), ['timestamp', 'frame_id', 'data', 'format']);
+    assert.equal(image.format, 'png');
+    const png = Buffer.from(image.data, 'base64');
+    assert.equal(png.subarray(1, 4).toString(), 'PNG');
+    // Width and height follow the length and the name of the first chunk.
+    assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [160, 120]);
+    const { sec, nsec } = image.timestamp;
+    assert.equal(BigInt(sec) * 1_000_000_000n + BigInt(nsec), message.logTime);
+    assert.equal(message.logTime, last < 0n ? 0n : last + 100_000_000n);
+    last = message.logTime;
+  }
+  // The last of the run, which takes a little longer than 10 s to stop the robot.
+  assert.ok(end >= 10_000_000_000n && last <= end && end - last < 100_000_000n);
 });
 
 void test('a file that was cut off is repaired, and read by others', (t) => {

@@ -67,13 +67,19 @@ public:
     BusFile(const BusFile&) = delete;
     BusFile& operator=(const BusFile&) = delete;
 
-    void described(debug::NodeId id) { bus_.described(at(), session_.view(id)); }
+    void happened(const debug::Event& event) {
+        if (std::holds_alternative<debug::NodeDescribed>(event.what)) {
+            bus_.described(at(), session_.view(event.node));
+        }
+        bus_.happened(at(), event);
+    }
     Time at() const { return session_.now() - began_; }
     uint64_t frames() const { return frames_; }
     uint64_t dropped() const { return tape_->dropped(); }
     Status state() const { return tape_->state(); }
-    Status end() {
-        recorder_.input_at(at(), record::RecordingEnds{});
+    // With why, if the bus was lost.
+    Status end(const std::string& why) {
+        recorder_.input_at(at(), record::RecordingEnds{why});
         return tape_->end();
     }
 
@@ -86,6 +92,19 @@ private:
     uint64_t frames_ = 0;
 };
 
+// A bus is recorded on when a node is missing: others may be there, and it may come back.
+void tell_presence(const NetSession& session, const debug::Event& event, Time at) {
+    const auto* const gone = std::get_if<debug::NodeDisconnected>(&event.what);
+    const bool again = std::holds_alternative<debug::NodeReconnected>(event.what);
+    if (gone == nullptr && !again) return;
+    const std::string& name = session.view(event.node).name;
+    const char* const what = again             ? "is there again"
+                             : gone->forgotten ? "has left"
+                                               : "has left, or it is silent";
+    complain(fmt::format("node {}{}{} {}, at {} s", event.node, name.empty() ? "" : " ", name, what,
+                         seconds_text(at)));
+}
+
 // Until it is over; the Error is of the bus, or of the file.
 Status follow(NetSession& session, BusFile& file) {
     const Time end = session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
@@ -94,9 +113,9 @@ Status follow(NetSession& session, BusFile& file) {
         reading.ask(session.now());
         TRY(session.turn(std::min(end, reading.next())));
         for (const debug::Event& event : session.take_events()) {
-            if (!std::holds_alternative<debug::NodeDescribed>(event.what)) continue;
-            session.adopt_scripts();
-            file.described(event.node);
+            if (std::holds_alternative<debug::NodeDescribed>(event.what)) session.adopt_scripts();
+            file.happened(event);
+            tell_presence(session, event, file.at());
         }
         TRY(file.state());
     }
@@ -116,7 +135,7 @@ Verdict net_record(NetSession& session, const std::string& path, const FilesRead
     BusFile file(session, std::move(tape), record::format_run(about));
     const Status followed = follow(session, file);
     const Time at = file.at();
-    const Status written = file.end();
+    const Status written = file.end(followed.ok() ? "" : followed.error().what);
     if (file.dropped() > 0) {
         complain(fmt::format("{}: the disk was too slow, {} samples of variables were left out",
                              path, file.dropped()));

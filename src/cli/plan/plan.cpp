@@ -218,9 +218,7 @@ void add_run(CLI::App& plan, int& exit_code) {
                    "beside a world: plain lines also on a terminal");
     verb->add_flag("--quiet", options->quiet, "no lines of what happens, and no view");
     add_theme_option(*verb, options->theme);
-    takes_file(*verb->add_option("--record", options->record,
-                                 "records the run, to be run again by `vagus replay`"),
-               {".mcap"});
+    add_record_options(*verb, options->record, options->record_camera);
     verb->add_flag("--watch", options->watch,
                    "a plan that is saved takes over while it runs; any other file that it read "
                    "starts it again");
@@ -242,7 +240,9 @@ void add_debug(CLI::App& plan, int& exit_code) {
         "lines of stdin. Exit codes as for `vagus plan run`.\n\nExample:\n"
         "  vagus plan debug Square.plan.json --world carbot.world.json --clock virtual");
     auto options = std::make_shared<PlanRunOptions>();  // owners: CLI11's options, the callback
+    options->verb = record::kDebugVerb;
     add_run_options(*verb, *options);
+    add_record_options(*verb, options->record, options->record_camera);
     verb->callback([options, &exit_code] { exit_code = debug_plan(*options); });
 }
 

@@ -5,6 +5,7 @@
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "embed/loaded_plan.hpp"
+#include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
 
 namespace vagus::cli {
@@ -77,10 +78,14 @@ Status check_recording(const PlanRunOptions& options) {
 
 Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRead& files) {
     TRY(check_recording(options));
+    session::PlanWorld* const world = prepared_->world();
+    if (options.record_camera) {
+        TRY(record::check_cameras(world == nullptr ? nullptr : &world->session().world()));
+    }
     const embed::RunWords& words = options.words;
     record::RunFile about;
     if (!words.bus.empty()) about.kind = record::kBusKind;
-    about.verb = "plan run";
+    about.verb = options.verb;
     about.bus = words.bus;
     about.project = words.project;
     about.plan = options.file;
@@ -95,6 +100,7 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     about.answers = words.answers;
     const auto pace = words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
+    if (options.record_camera) recording_->follow_cameras();
     record_ = options.record;
     return Status::done();
 }
@@ -106,9 +112,14 @@ void TerminalRun::end_recording() {
     const uint64_t dropped = recording_->dropped();
     if (dropped > 0) {
         complain(record_ + ": the disk was too slow, " + std::to_string(dropped) + " samples" +
-                 " of variables and poses were left out");
+                 " of variables, poses and cameras were left out");
     }
     recording_.reset();
+}
+
+void TerminalRun::set_debugger(run::Debugger& debugger) {
+    debugger_ = &debugger;
+    if (recording_) recording_->follow(debugger);
 }
 
 run::Ended TerminalRun::run() {

@@ -28,6 +28,7 @@ namespace vagus::cli {
 void show_findings(const plan::Findings& findings);
 
 struct PlanRunOptions {
+    std::string verb = "plan run";  // as recordings say it
     std::string file;
     embed::RunWords words;
     bool headless = false;  // plain lines also on a terminal
@@ -35,6 +36,7 @@ struct PlanRunOptions {
     std::string theme;      // "dark", "light"; empty: found out
     bool watch = false;     // starts again when a file is saved
     std::string record;     // a file for the recording of the first run; empty: none
+    bool record_camera = false;
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);
@@ -58,7 +60,7 @@ public:
     // What --record named; empty: nothing was to be recorded. It has the first run.
     const std::string& record() const { return record_; }
     // Before run(); borrowed.
-    void set_debugger(run::Debugger& debugger) { debugger_ = &debugger; }
+    void set_debugger(run::Debugger& debugger);
 
 private:
     TerminalRun();

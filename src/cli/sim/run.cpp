@@ -166,6 +166,7 @@ Status SimRun::begin_recording(const FilesRead& files) {
     const bool has_ports = std::any_of(robots.begin(), robots.end(),
                                        [](const auto& robot) { return robot.port.has_value(); });
     TRY(check_recording(options_, has_ports));
+    if (options_.record_camera) TRY(record::check_cameras(&session_.world()));
     record::RunFile about;
     about.verb = "sim";
     about.world = options_.world;
@@ -173,6 +174,7 @@ Status SimRun::begin_recording(const FilesRead& files) {
     if (options_.seed) about.seed = std::to_string(*options_.seed);
     const auto pace = pace_.hurries() ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::SimRecording::begin(options_.record, about, files, robots_, pace));
+    if (options_.record_camera) recording_->follow_cameras();
     return Status::done();
 }
 
@@ -183,7 +185,7 @@ void SimRun::end_recording() {
     if (recording_->dropped() > 0) {
         complain(options_.record + ": the disk was too slow, " +
                  std::to_string(recording_->dropped()) +
-                 " samples of variables and poses were left out");
+                 " samples of variables, poses and cameras were left out");
     }
     recording_.reset();
 }

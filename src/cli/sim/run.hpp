@@ -30,6 +30,7 @@ struct SimRunOptions {
     std::string trace;
     std::string chaos;   // what breaks, as of `plan run`; empty: nothing
     std::string record;  // a file for the recording; empty: none
+    bool record_camera = false;
     std::string sd_folder;
     serve::FleetOptions fleet = {};  // robots with projects are members there
     std::string logins;              // a folder with NAME.login for each

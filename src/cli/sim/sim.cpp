@@ -90,9 +90,7 @@ void add_sim(CLI::App& app, int& exit_code) {
     verb->add_option("--chaos", options->chaos,
                      "what breaks in the world: a JSON file, the JSON itself, or random:N[:SEED]")
         ->type_name("FAULTS");
-    takes_file(*verb->add_option("--record", options->record,
-                                 "records the run, to be run again by `vagus replay`"),
-               {".mcap"});
+    add_record_options(*verb, options->record, options->record_camera);
     verb->add_option("--fleet", options->fleet.target,
                      "robots with a project are members of this fleet, in real time: "
                      "mqtt[s]://HOST[:PORT][/FLEET]")

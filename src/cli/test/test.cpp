@@ -4,9 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <thread>
 
 #include "base/file.hpp"
+#include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/test/chaos.hpp"
@@ -17,6 +20,7 @@
 #include "session/toolboxes.hpp"
 #include "trial/drawing.hpp"
 #include "trial/from_recording.hpp"
+#include "trial/recorded_runs.hpp"
 #include "trial/report.hpp"
 
 namespace vagus::cli {
@@ -30,7 +34,8 @@ constexpr size_t kFailuresShown = 10;  // of one test; all are in the JUnit file
 
 struct TestOptions {
     std::vector<std::string> files = {"."};
-    int64_t at_once = 0;  // 0: as many as there are processors
+    std::vector<std::string> recordings = {};  // of `files`: those that are counted only
+    int64_t at_once = 0;                       // 0: as many as there are processors
     std::string seeds;
     std::string junit;
     std::string coverage;
@@ -41,6 +46,10 @@ struct TestOptions {
 };
 
 // ---- which tests ----
+
+bool is_recording(const std::string& path) {
+    return path.ends_with(".mcap");
+}
 
 bool is_test(const fs::path& path) {
     return path.filename().string().ends_with(trial::kTestEnding);
@@ -91,6 +100,28 @@ Result<std::vector<trial::TestFile>> read_tests(const TestOptions& options) {
         if (!options.seeds.empty()) tests.back().seeds = TRY(trial::parse_seeds(options.seeds));
     }
     return tests;
+}
+
+// ---- recordings, which are counted with the runs of tests ----
+
+Result<trial::RecordedRuns> count_recordings(const std::vector<std::string>& recordings,
+                                             const trial::Coverage& beside) {
+    trial::RecordedRuns counted;
+    const auto know = [&counted](const std::string& path) {
+        const auto text = read_file(path);
+        if (text.ok()) counted.know(path, text.value());
+    };
+    for (const auto& [path, plan] : beside.plans) know(path);
+    for (const auto& [path, script] : beside.scripts) know(path);
+    for (const std::string& path : recordings) {
+        const MappedFile file = TRY(MappedFile::open(path));
+        const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
+        const trial::CountedRun one = TRY(counted.add(reader));
+        print(fmt::format("counted {}: {} s of {}{}{}\n", path, seconds_text(one.end), one.plan,
+                          one.of_bus ? " on a real bus" : "",
+                          one.changed ? ", up to where another version of it took over" : ""));
+    }
+    return counted;
 }
 
 // ---- running ----
@@ -161,9 +192,12 @@ private:
             runs += result.seeds.size();
             for (const trial::SeedResult& seed : result.seeds) coverage.add(seed.outcome.coverage);
         }
+        const auto recorded = count_recordings(options_.recordings, coverage);
+        if (!recorded.ok()) return complain(recorded.error(), kExitUsage);
+        coverage.add(recorded.value().coverage());
         print("\n" + trial::format_table(coverage));
-        print(fmt::format("\n{} of {} runs as expected\n", runs - failed, runs));
-        const Status written = write_files(coverage);
+        if (runs > 0) print(fmt::format("\n{} of {} runs as expected\n", runs - failed, runs));
+        const Status written = write_files(coverage, recorded.value().plans());
         if (!written.ok()) return complain(written.error());
         if (options_.tries.sets > 0) failed += break_things();
         return failed == 0 ? kExitDone : kExitFailed;
@@ -203,7 +237,8 @@ private:
                            plan::text_of(seconds_of(first)));
     }
 
-    Status write_files(const trial::Coverage& coverage) const {
+    Status write_files(const trial::Coverage& coverage,
+                       const std::vector<plan::Plan>& recorded) const {
         if (!options_.junit.empty()) {
             TRY(write_file(options_.junit, trial::format_junit(results_)));
         }
@@ -216,24 +251,41 @@ private:
             const std::string missing = trial::format_missing(plan);
             if (!missing.empty()) text += "\nnever, " + file + ":\n" + missing;
         }
+        for (const auto& [file, script] : coverage.scripts) {
+            if (!script.only_told) continue;
+            text += "\nas far as frames tell, " + file + ":\n" + trial::format_told(script);
+        }
         TRY(write_file((folder / "coverage.txt").string(), text));
         TRY(write_file((folder / "scripts.info").string(), trial::format_lcov(coverage)));
-        return draw_plans(coverage, folder);
+        std::vector<plan::Plan> plans = TRY(plans_of_tests());
+        plans.insert(plans.end(), recorded.begin(), recorded.end());
+        return draw_plans(coverage, plans, folder);
     }
 
-    Status draw_plans(const trial::Coverage& coverage, const fs::path& folder) const {
-        std::set<std::string> drawn;
+    Result<std::vector<plan::Plan>> plans_of_tests() const {
+        std::vector<plan::Plan> plans;
         for (const trial::TestResult& result : results_) {
             toolbox::Parts parts;
             run::CodeLibrary library;
             TRY(session::add_toolboxes(library, parts, result.test.toolboxes));
             const auto loaded = embed::LoadedPlan::from_file(result.test.plan, library);
-            for (const plan::Plan& plan : loaded.plans()) {
-                const auto counted = coverage.plans.find(plan.file);
-                if (counted == coverage.plans.end() || !drawn.insert(plan.file).second) continue;
-                TRY(write_file((folder / (plan.name + ".svg")).string(),
-                               trial::draw_coverage(plan, counted->second)));
-            }
+            plans.insert(plans.end(), loaded.plans().begin(), loaded.plans().end());
+        }
+        return plans;
+    }
+
+    // Of two files with one name the second is NAME-2.svg.
+    static Status draw_plans(const trial::Coverage& coverage, const std::vector<plan::Plan>& plans,
+                             const fs::path& folder) {
+        std::set<std::string> drawn;
+        std::map<std::string, int> named;
+        for (const plan::Plan& plan : plans) {
+            const auto counted = coverage.plans.find(plan.file);
+            if (counted == coverage.plans.end() || !drawn.insert(plan.file).second) continue;
+            const int number = ++named[plan.name];
+            const std::string name =
+                plan.name + (number > 1 ? fmt::format("-{}", number) : "") + ".svg";
+            TRY(write_file((folder / name).string(), trial::draw_coverage(plan, counted->second)));
         }
         return Status::done();
     }
@@ -255,6 +307,11 @@ int test(TestOptions options) {
         if (!tries.ok()) return complain(tries.error(), kExitUsage);
         options.tries = std::move(tries.value());
     }
+    const auto tests_end =
+        std::stable_partition(options.files.begin(), options.files.end(),
+                              [](const std::string& path) { return !is_recording(path); });
+    options.recordings.assign(tests_end, options.files.end());
+    options.files.erase(tests_end, options.files.end());
     auto tests = read_tests(options);
     if (!tests.ok()) return complain(tests.error(), kExitUsage);
     return Session(options, std::move(tests.value())).run();
@@ -310,8 +367,9 @@ void add_test(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand("test", "runs tests of behaviour, NAME.test.json");
     auto options = std::make_shared<TestOptions>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("FILE", options->files,
-                                 "tests, or folders with tests in them and below (.)"),
-               {std::string(trial::kTestEnding)});
+                                 "tests, or folders with tests in them and below (.); recordings "
+                                 "of plans, also of real robots, are counted with their runs"),
+               {std::string(trial::kTestEnding), ".mcap"});
     takes_whole_number(
         *verb->add_option("-j", options->at_once, "runs at once (one for each processor)"), 1,
         kJobsAtOnceMax);
@@ -338,6 +396,7 @@ void add_test(CLI::App& app, int& exit_code) {
         "the runs went through.\n"
         "Exit codes: 0 all as expected, 1 something was not, 2 not valid.\n\nExample:\n"
         "  vagus test examples/follow-wall --junit junit.xml --coverage coverage\n"
+        "  vagus test examples/follow-wall real.mcap --coverage coverage\n"
         "  vagus test Wall.test.json --seeds 7\n"
         "  vagus test Wall.test.json --chaos 20:lost,delayed,slow\n"
         "  vagus test --signals");

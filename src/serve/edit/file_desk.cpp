@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "serve/base64.hpp"
+#include "base/base64.hpp"
 #include "serve/edit/named_paths.hpp"
 #include "serve/edit/own_script.hpp"
 #include "serve/edit/seen.hpp"

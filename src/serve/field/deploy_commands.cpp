@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "serve/base64.hpp"
+#include "base/base64.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {

@@ -4,8 +4,8 @@
 
 #include <ctime>
 
+#include "base/base64.hpp"
 #include "base/file.hpp"
-#include "serve/base64.hpp"
 #include "serve/field/bundle.hpp"
 #include "serve/json.hpp"
 

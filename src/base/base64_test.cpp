@@ -1,8 +1,8 @@
-#include "serve/base64.hpp"
+#include "base/base64.hpp"
 
 #include <gtest/gtest.h>
 
-namespace vagus::serve {
+namespace vagus {
 namespace {
 
 // The vectors of RFC 4648, 10.
@@ -29,4 +29,4 @@ TEST(Base64, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace vagus::serve
+}  // namespace vagus

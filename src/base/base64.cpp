@@ -1,9 +1,9 @@
-#include "serve/base64.hpp"
+#include "base/base64.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
-namespace vagus::serve {
+namespace vagus {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::optional<std::string> from_base64(std::string_view text) {
     return group == 0 ? std::optional(bytes) : std::nullopt;
 }
 
-}  // namespace vagus::serve
+}  // namespace vagus

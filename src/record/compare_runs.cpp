@@ -26,9 +26,9 @@ constexpr std::string_view kEndLane = "end";
 // ---- what is looked up before ----
 
 struct Survey {
-    std::optional<Time> start;    // where it is aligned
-    std::set<std::string> known;  // what it could be aligned at
-    JsonValue about;              // /vagus/run
+    std::optional<Time> start;        // where it is aligned
+    std::set<std::string> known;      // what it could be aligned at
+    JsonValue about;                  // /vagus/run
     std::vector<std::string> robots;  // with projects of their own
     Time end{};
     std::string how;  // it ended, as JSON
@@ -38,7 +38,8 @@ struct Survey {
 std::string robot_of(std::string_view topic, const std::set<std::string, std::less<>>& robots) {
     if (robots.empty() || !topic.starts_with(kRobotTopics)) return "";
     const std::string_view rest = topic.substr(kRobotTopics.size());
-    for (size_t end = rest.find('/'); end != std::string_view::npos; end = rest.find('/', end + 1)) {
+    for (size_t end = rest.find('/'); end != std::string_view::npos;
+         end = rest.find('/', end + 1)) {
         const auto found = robots.find(rest.substr(0, end));
         if (found != robots.end()) return *found;
     }

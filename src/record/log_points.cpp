@@ -338,11 +338,16 @@ Status LogPoints::check() const {
 // A robot with another project may lack it, as long as one has it.
 Status LogPoints::check(const OfNode& wish) const {
     std::optional<Error> missing;
+    bool line_is_there = false;  // where that is missing
     std::vector<std::string> known;
+    OfNode line = wish;
+    line.values.clear();
     for (const Bus& bus : buses_) {
         const Result<bool> there = has_place(wish, bus, known);
         if (there.ok() && there.value()) return Status::done();
-        if (!there.ok() && !missing) missing = there.error();
+        if (there.ok() || line_is_there) continue;
+        line_is_there = has_place(line, bus, known).ok();
+        if (!missing || line_is_there) missing = there.error();
     }
     if (missing) return *missing;
     return refuse(

@@ -241,7 +241,7 @@ class FleetRecordings(unittest.TestCase):
         self.assertIn('by then 100 robots had an event "alarm": a, h1, h2, h3, h4, h5, h6, h7, h8, h9 and 90 more',
                       self.refused("event", "alarm"))
         self.assertIn('there is no robot "h100" in this run; did you mean h10?', self.refused("event", "alarm", "--robot", "h100"))
-        hits = self.hits("--log", f"thymio-II:{self.line_of('hear/hear.aesl', 'got = ')}", "got, event.args[0]")
+        hits = self.hits("--log", f"thymio-II:{self.line_of('hear/hear.aesl', 'got = event')}", "got, event.args[0]")
         self.assertEqual(sorted(hit["at"].split("/")[0] for hit in hits), sorted(f"h{n}" for n in range(1, 100)))
         self.assertEqual({(hit["t"], *hit["values"].values()) for hit in hits}, {(5.013, 0, 50)})
 
@@ -260,7 +260,8 @@ class FleetRecordings(unittest.TestCase):
     def test_log_points_of_plans(self):
         self.make_hall([("k1", "claim"), ("k2", "claim")])
         self.record(20)
-        begins = {robot: self.chain("actor", "hold", "--robot", robot)[0]["t"] for robot in ("k1", "k2")}
+        begins = {robot: next(link["t"] for link in self.chain("actor", "hold", "--robot", robot)
+                              if link["what"] == "the actor hold began") for robot in ("k1", "k2")}
         hits = self.hits("--log", "@hold.enter", "seen, lease")
         self.assertEqual([(hit["t"], hit["at"], hit["values"]["seen"]) for hit in hits],
                          [(begins[robot], f"{robot}/@hold.enter", 5) for robot in ("k1", "k2")])
@@ -379,7 +380,7 @@ class FleetRecordings(unittest.TestCase):
         self.record(12)
         ask = ["--turning-point", "contact >= 2", "--results", self.folder / "kept"]
         self.assertIn("2 robots of this run have projects of their own; say so, as --robot n", self.refused(*ask, status=2))
-        self.assertIn('there is no robot "x" in this run', self.refused(*ask, "--robot", "x", status=1))
+        self.assertIn('there is no robot "x" in this run', self.refused(*ask, "--robot", "x", status=2))
         found = json.loads(run_vagus("why", self.file, *ask, "--robot", "c", "--tries", 10, "--json"))
         self.assertEqual(found["robot"], "c")
         turn = found["turn"]

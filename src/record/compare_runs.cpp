@@ -34,16 +34,18 @@ struct Survey {
     std::string how;  // it ended, as JSON
 };
 
-// Whose topic it is of those robots, whose names may have any letters; empty: nobody's.
+// Whose topic it is of those robots, whose names may have any letters, of two that fit the longer
+// one; empty: nobody's.
 std::string robot_of(std::string_view topic, const std::set<std::string, std::less<>>& robots) {
-    if (robots.empty() || !topic.starts_with(kRobotTopics)) return "";
+    std::string longest;
+    if (robots.empty() || !topic.starts_with(kRobotTopics)) return longest;
     const std::string_view rest = topic.substr(kRobotTopics.size());
     for (size_t end = rest.find('/'); end != std::string_view::npos;
          end = rest.find('/', end + 1)) {
         const auto found = robots.find(rest.substr(0, end));
-        if (found != robots.end()) return *found;
+        if (found != robots.end()) longest = *found;
     }
-    return "";
+    return longest;
 }
 
 class Surveyor {

@@ -275,7 +275,7 @@ TEST(CompareRuns, EachRobotHasLanesOfItsOwn) {
                                     "var n\n", robots);
     const Comparison found = compared(a, b);
     EXPECT_EQ(format_comparison(found, "a", "b"),
-              "differs at 2.000000 s: /robot/r/2/bus/events\n  A: {\"name\":\"x\"}\n"
+              "differs at 2.000000 s: /robot/r/2/bus/events, name\n  A: {\"name\":\"x\"}\n"
               "  B: {\"name\":\"y\"}\n"
               "no difference: /vagus/input, /plan/trace, /bus/events, /world/scene, /vagus/check, "
               "/robot/r, /robot/r/2/plan/trace, /robot/r/2/vagus/check, /robot/s, end\n");

@@ -40,7 +40,7 @@ Result<std::unique_ptr<RobotPlan>> RobotPlan::load(session::RobotBus& robot) {
     return made;
 }
 
-Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen) {
+Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Told told) {
     names_.emplace(robot_.session->common(), "the scripts of " + robot_.project.file);
     TRY(check_names(*names_, *plan_, "its"));
     if (!ears_) ears_.emplace(nodes_);  // in a second run it knows who is there
@@ -50,7 +50,9 @@ Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, 
     ended_.reset();
     begun_ = {};
     options_.seed = seed;
-    options_.on_trace = std::move(seen);
+    options_.on_trace = std::move(told.line);
+    options_.passes_over = std::move(told.passes_over);
+    told_of_sent_ = std::move(told.sent);
     options_.may_emit = [this](const run::BusEvent& event) { return names_->may_emit(event); };
     options_.surroundings = this;
     run_.emplace(plan_->graph(), library_, options_);
@@ -96,7 +98,8 @@ std::vector<run::BusEvent> RobotPlan::begin() {
 void RobotPlan::emit(Time at, const run::BusEvent& event) {
     if (only_ && !only_->contains(event.name)) return;
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
-    (void)robot_.session->emit(event.name, event.arguments, at).ok();
+    const Status sent = robot_.session->emit(event.name, event.arguments, at, event.cause);
+    if (sent.ok() && told_of_sent_) told_of_sent_(event);
 }
 
 }  // namespace vagus::embed

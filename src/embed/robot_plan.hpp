@@ -36,7 +36,13 @@ constexpr Duration kPlansEndWithin = std::chrono::seconds(60);
 class RobotPlan final : private run::Surroundings {
 public:
     // Called with what happens in the plan, on the thread that steps it.
-    using Seen = std::function<void(const plan::TraceEvent&)>;
+    struct Told {
+        std::function<void(const plan::TraceEvent&)> line;
+        // What a supervisor raises, before it is taken. True: it is passed over. Empty: none is.
+        std::function<bool(const run::Raising&)> passes_over = {};
+        // It has sent an event to the bus. May be empty.
+        std::function<void(const run::BusEvent&)> sent = {};
+    };
 
     // `robot` and its world are borrowed. The Error has the findings of the plan, or says what is
     // wrong with the values that the project gives its variables.
@@ -45,7 +51,7 @@ public:
 
     // A run from time 0 on; `before` tells who is on the bus. The Error names events that the
     // robot's scripts do not have.
-    Status begin(uint64_t seed, const std::vector<debug::Event>& before, Seen seen);
+    Status begin(uint64_t seed, const std::vector<debug::Event>& before, Told told);
     // Whether a template of it asks the fleet.
     bool needs_fleet() const;
     // Before its first step: what its templates ask of the fleet; nullptr: there is none. The Error
@@ -59,9 +65,14 @@ public:
     Time now() const { return run_->now(); }
     void step();
     void abort();
+    // From now on what is random in its code is drawn from that seed.
+    void reseed(uint64_t seed) {
+        if (!over()) run_->reseed(seed);
+    }
     // How it has ended; nothing while it runs.
     const std::optional<run::Ended>& ended() const { return ended_; }
     const std::string& name() const { return plan_->graph().plans.front().name; }
+    const LoadedPlan& loaded() const { return *plan_; }
 
 private:
     explicit RobotPlan(session::RobotBus& robot);
@@ -79,6 +90,7 @@ private:
     run::CodeLibrary library_;
     std::optional<LoadedPlan> plan_;
     run::RunOptions options_;
+    std::function<void(const run::BusEvent&)> told_of_sent_;
     std::optional<session::BusNames> names_;
     std::optional<session::BusEars> ears_;
     std::optional<run::VirtualTime> run_;

@@ -86,6 +86,7 @@ Status RobotsRun::start() {
     if (!has_projects()) return Status::done();
     (void)buses_->settle();
     fleet_ = std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_);
+    if (watcher_ != nullptr) fleet_->watch();
     for (size_t i = 0; i < plans_.size(); ++i) {
         const RobotBus& robot = buses_->robots()[i];
         const Status begun = begin(i);
@@ -101,31 +102,75 @@ Status RobotsRun::begin(size_t index) {
     RobotPlan* const plan = plans_[index].get();
     const std::vector<debug::Event> before = robot.session->take_heard();
     if (plan != nullptr) {
-        TRY(plan->begin(seed_ + robot.id.number, before,
-                        [this, index](const plan::TraceEvent& event) { see(index, event); }));
+        RobotPlan::Told told{
+            .line = [this, index](const plan::TraceEvent& event) { see(index, event); }};
+        if (watcher_ != nullptr) {
+            told.passes_over = [this, index](const run::Raising& raising) {
+                return watcher_ != nullptr && watcher_->passes_over(index, raising);
+            };
+            told.sent = [this, index](const run::BusEvent& event) {
+                if (watcher_ != nullptr) watcher_->sent(index, event);
+            };
+        }
+        TRY(plan->begin(seed_ + robot.id.number, before, std::move(told)));
     }
     const bool asks = plan != nullptr && plan->needs_fleet();
-    TRY(fleet_->join(robot, ears_of(robot, plan), asks));
+    TRY(fleet_->join(robot, ears_of(index), asks));
     if (plan != nullptr) TRY(plan->join(fleet_->asked_by(robot.id)));
     // What scripts say as they are loaded is for the fleet, too.
     for (const debug::Event& event : before) tell_fleet(robot, event, Time{});
     return Status::done();
 }
 
-session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
-    const auto hear = [this, &robot, plan](const fleet::EmitOnBus& event) {
-        const Status sent = robot.session->emit(event.event, event.args, buses_->now());
-        if (!sent.ok()) {
-            return say(robot, "the event " + event.event + " of " + event.from +
-                                  " could not be passed on: " + sent.error().what);
-        }
-        if (!plan) return;
-        plan->hear(run::BusEvent{event.event, event.args, wire::kHostId});
-        plan->hear(run::BusEvent{toolbox::fleet_event(event.event, event.from), event.args,
-                                 wire::kHostId});
+// Of what comes over the fleet; it has one where frames have, so that what follows from it can say
+// so.
+uint32_t RobotsRun::number_of_message(uint32_t cause) {
+    sim::FrameNumbers* const numbers = buses_->world().frame_numbers();
+    return numbers != nullptr ? numbers->other(cause) : 0;
+}
+
+void RobotsRun::hear_of_fleet(size_t index, const fleet::EmitOnBus& event, uint32_t frame) {
+    RobotBus& robot = buses_->robots()[index];
+    const uint32_t number = number_of_message(frame);
+    const Status sent = robot.session->emit(event.event, event.args, buses_->now(), number);
+    if (!sent.ok()) {
+        return say(robot, "the event " + event.event + " of " + event.from +
+                              " could not be passed on: " + sent.error().what);
+    }
+    if (watcher_) {
+        watcher_->of_fleet(index, FleetEvent{number, event.event, event.args, event.from});
+    }
+    RobotPlan* const plan = plans_[index].get();
+    if (!plan) return;
+    plan->hear(run::BusEvent{event.event, event.args, wire::kHostId, number});
+    plan->hear(run::BusEvent{toolbox::fleet_event(event.event, event.from), event.args,
+                             wire::kHostId, number});
+}
+
+void RobotsRun::hear_news(size_t index, const std::vector<session::FleetNews>& news) {
+    const uint32_t number = number_of_message(0);
+    if (watcher_) watcher_->of_fleet(index, FleetTold{number, news});
+    plans_[index]->hear({std::string(toolbox::kFleetNews), {}, wire::kHostId, number});
+}
+
+void RobotsRun::add_ears_of_watcher(session::WorldFleet::Ears& ears, size_t index) {
+    ears.asked = [this, index](uint64_t question, const keeper::Request& request) {
+        if (watcher_) watcher_->of_fleet(index, KeeperAsked{question, request});
     };
-    const auto stop = [this, &robot, plan](const std::string& why) {
+    ears.replied = [this, index](uint64_t question, const keeper::Reply& reply) {
+        if (watcher_) watcher_->of_fleet(index, KeeperDecided{question, reply});
+    };
+}
+
+session::WorldFleet::Ears RobotsRun::ears_of(size_t index) {
+    RobotBus& robot = buses_->robots()[index];
+    RobotPlan* const plan = plans_[index].get();
+    const auto hear = [this, index](const fleet::EmitOnBus& event, uint32_t frame) {
+        hear_of_fleet(index, event, frame);
+    };
+    const auto stop = [this, index, &robot, plan](const std::string& why) {
         say(robot, why + "; the robot stops, as its project says");
+        if (watcher_) watcher_->stopped(index, why);
         if (plan) plan->abort();
         robot.session->stop_nodes();
     };
@@ -133,7 +178,12 @@ session::WorldFleet::Ears RobotsRun::ears_of(RobotBus& robot, RobotPlan* plan) {
         .hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
             say(robot, text);
         }};
-    if (plan) ears.news = [plan] { plan->hear({std::string(toolbox::kFleetNews), {}}); };
+    if (plan) {
+        ears.news = [this, index](const std::vector<session::FleetNews>& news) {
+            hear_news(index, news);
+        };
+    }
+    if (watcher_) add_ears_of_watcher(ears, index);
     if (door_) add_ears_of_broker(ears, robot);
     return ears;
 }
@@ -159,6 +209,7 @@ void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, RobotBus& ro
 void RobotsRun::see(size_t index, const plan::TraceEvent& event) {
     RobotBus& robot = buses_->robots()[index];
     if (told_) told_(index, event);
+    if (watcher_) watcher_->line(index, event);
     if (traced_) buses_->trace(plan::format_trace(event, robot.name) + "\n");
     const auto* ended = std::get_if<plan::PlanEnded>(&event.what);
     if (ended == nullptr || run::level_of(event) > 0) return;
@@ -175,6 +226,18 @@ void RobotsRun::say(RobotBus& robot, const std::string& text) {
                       .text("robot", robot.name)
                       .text("text", text)
                       .done());
+}
+
+void RobotsRun::reseed(uint64_t seed) {
+    buses_->world().reseed(seed);
+    if (fleet_) fleet_->reseed(seed);
+    for (size_t i = 0; i < plans_.size(); ++i) {
+        if (plans_[i]) plans_[i]->reseed(seed + buses_->robots()[i].id.number);
+    }
+}
+
+const LoadedPlan* RobotsRun::plan(size_t robot) const {
+    return plans_[robot] ? &plans_[robot]->loaded() : nullptr;
 }
 
 bool RobotsRun::has_failed() const {
@@ -250,7 +313,7 @@ void RobotsRun::tell_fleet(const RobotBus& robot, const debug::Event& event, Tim
     const auto* sent = std::get_if<debug::UserEvent>(&event.what);
     const bool is_named = sent != nullptr && !sent->name.empty();
     if (!fleet_ || !is_named || event.node == wire::kHostId) return;
-    fleet_->emitted(robot.id, sent->name, sent->arguments, at);
+    fleet_->emitted(robot.id, {sent->name, sent->arguments, event.frame}, at);
 }
 
 }  // namespace vagus::embed

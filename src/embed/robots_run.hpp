@@ -23,6 +23,8 @@
 
 #include "base/result.hpp"
 #include "debug/event.hpp"
+#include "embed/loaded_plan.hpp"
+#include "embed/robots_watcher.hpp"
 #include "plan/trace.hpp"
 #include "session/sim_session.hpp"
 #include "session/world_buses.hpp"
@@ -53,6 +55,13 @@ public:
     // buses().robots().
     using Listener = std::function<void(size_t robot, const plan::TraceEvent&)>;
     void listen(Listener told) { told_ = std::move(told); }
+    // Before start(): is told more, for one who asks why. Borrowed; nullptr: nobody.
+    void watch(RobotsWatcher* watcher) { watcher_ = watcher; }
+    // From now on all that is random is drawn from that seed: in the world, in plans, on the ways
+    // of the fleet.
+    void reseed(uint64_t seed);
+    // That of the robot at that place of buses().robots(); nullptr without one.
+    const LoadedPlan* plan(size_t robot) const;
 
     // At time 0, once all scripts are there (WorldBuses::settle(), which this calls): plans begin,
     // robots join their fleets. The Error names a robot whose plan or name does not fit.
@@ -76,7 +85,11 @@ private:
     void run_plans_before(Time at);
     void hear(size_t index, Time at);
     void tell_fleet(const session::RobotBus& robot, const debug::Event& event, Time at);
-    session::WorldFleet::Ears ears_of(session::RobotBus& robot, RobotPlan* plan);
+    session::WorldFleet::Ears ears_of(size_t index);
+    void hear_of_fleet(size_t index, const fleet::EmitOnBus& event, uint32_t frame);
+    void hear_news(size_t index, const std::vector<session::FleetNews>& news);
+    void add_ears_of_watcher(session::WorldFleet::Ears& ears, size_t index);
+    uint32_t number_of_message(uint32_t cause);
     void add_ears_of_broker(session::WorldFleet::Ears& ears, session::RobotBus& robot);
     void see(size_t index, const plan::TraceEvent& event);
     void say(session::RobotBus& robot, const std::string& text);
@@ -86,6 +99,7 @@ private:
     std::unique_ptr<session::WorldFleet> fleet_;     // nullptr until start()
     std::optional<session::WorldFleet::Door> door_;
     Listener told_;
+    RobotsWatcher* watcher_ = nullptr;
     bool traced_ = false;
     uint64_t seed_ = 1;
     Duration rest_{};

@@ -67,18 +67,20 @@ void Member::on(const Acknowledged& acknowledged) {
 
 // ---- events ----
 
-void Member::emitted(const std::string& event, const std::vector<int16_t>& args, Time now) {
+int64_t Member::emitted(const std::string& event, const std::vector<int16_t>& args, Time now) {
     now_ = now;
-    if (!contains(options_.project.send, event)) return;
+    if (!contains(options_.project.send, event)) return 0;
     if (args.size() > kWordsMax || !sent_rates_.allows(event, now)) {
         ++left_out_;
-        return;
+        return 0;
     }
-    Post post = post_of(Kind::Event, event,
-                        Event{++numbers_, options_.epoch, options_.project.groups, args});
+    const int64_t number = ++numbers_;
+    Post post =
+        post_of(Kind::Event, event, Event{number, options_.epoch, options_.project.groups, args});
     post.expires_s = kEventAgeSeconds;
     outbox_.add(std::move(post), now);
     send_events();
+    return number;
 }
 
 void Member::send_events() {
@@ -108,7 +110,7 @@ void Member::hear_event(const Topic& topic, const Event& event) {
         ++left_out_;
         return;
     }
-    act(EmitOnBus{topic.name, event.args, topic.robot});
+    act(EmitOnBus{topic.name, event.args, topic.robot, event.number});
 }
 
 void Member::hear_early_events() {

@@ -57,7 +57,8 @@ struct Subscribe {
 struct EmitOnBus {
     std::string event;
     std::vector<int16_t> args;
-    std::string from;  // the robot that sent it
+    std::string from;    // the robot that sent it
+    int64_t number = 0;  // of the event, among those of that robot
 };
 // answer() follows.
 struct Obey {
@@ -87,8 +88,9 @@ public:
     Post will() const { return connection("lost"); }
 
     void hear(const LinkEvent& event, Time now);
-    // A script of the robot has emitted it. What came from the fleet is not told here.
-    void emitted(const std::string& event, const std::vector<int16_t>& args, Time now);
+    // A script of the robot has emitted it. What came from the fleet is not told here. The number
+    // that it has in the fleet; 0: it is not sent.
+    int64_t emitted(const std::string& event, const std::vector<int16_t>& args, Time now);
     // As it is now; told when it changes, and from time to time.
     void show(const Shown& shown, Time now);
     // A variable that the project lists under `tell` has these values.

@@ -61,6 +61,9 @@ public:
     // What is due by `now` happens, in the order of time. Never earlier than before.
     void pass(Time now);
 
+    // From now on chance is drawn from that seed.
+    void reseed(uint64_t seed) { random_ = SplitMix64(seed); }
+
     // Messages that were lost for good.
     uint64_t lost() const { return lost_; }
 

@@ -26,12 +26,27 @@ constexpr std::string_view kEndLane = "end";
 // ---- what is looked up before ----
 
 struct Survey {
-    std::optional<Time> start;    // where it is aligned
-    std::set<std::string> known;  // what it could be aligned at
-    JsonValue about;              // /vagus/run
+    std::optional<Time> start;        // where it is aligned
+    std::set<std::string> known;      // what it could be aligned at
+    JsonValue about;                  // /vagus/run
+    std::vector<std::string> robots;  // with projects of their own
     Time end{};
     std::string how;  // it ended, as JSON
 };
+
+// Whose topic it is of those robots, whose names may have any letters, of two that fit the longer
+// one; empty: nobody's.
+std::string robot_of(std::string_view topic, const std::set<std::string, std::less<>>& robots) {
+    std::string longest;
+    if (robots.empty() || !topic.starts_with(kRobotTopics)) return longest;
+    const std::string_view rest = topic.substr(kRobotTopics.size());
+    for (size_t end = rest.find('/'); end != std::string_view::npos;
+         end = rest.find('/', end + 1)) {
+        const auto found = robots.find(rest.substr(0, end));
+        if (found != robots.end()) longest = *found;
+    }
+    return longest;
+}
 
 class Surveyor {
 public:
@@ -47,7 +62,7 @@ public:
             made_.end = std::max(made_.end, at);
             see(channel->topic, at, message->data);
         }
-        TRY(read_run(json_line(made_.about), reader_.name()));
+        made_.robots = TRY(read_run(json_line(made_.about), reader_.name())).robots;
         if (made_.start) return std::move(made_);
         const bool actor = align_.at == Align::At::Actor;
         const std::vector<std::string> known(made_.known.begin(), made_.known.end());
@@ -57,13 +72,17 @@ public:
     }
 
 private:
+    // The first message of a recording says which robots there are.
     void see(std::string_view topic, Time at, std::string_view data) {
+        if (align_.at != Align::At::Start) robot_ = robot_of(topic, robots_);
+        if (!robot_.empty()) topic.remove_prefix(kRobotTopics.size() + robot_.size());
         const bool events = align_.at == Align::At::Event && topic == kEventsTopic;
         if (topic != kRunTopic && topic != kTraceTopic && !events) return;
         auto json = read_json(data);
         auto* const message = std::get_if<JsonValue>(&json);
         if (message == nullptr) return;
         if (topic == kRunTopic) {
+            see_robots(*message);
             made_.about = std::move(*message);
         } else if (topic == kTraceTopic) {
             see_trace(*message, at);
@@ -72,22 +91,34 @@ private:
         }
     }
 
+    void see_robots(const JsonValue& about) {
+        const JsonValue* const robots = about.find("robots");
+        if (robots == nullptr) return;
+        for (const JsonValue& one : robots->items) robots_.insert(one.text);
+    }
+
     void see_trace(const JsonValue& line, Time at) {
         const std::string kind = text_in(line, "kind");
         if (kind == "actor-start" && align_.at == Align::At::Actor)
             meet(text_in(line, "actor"), at);
         if (kind == "event" && align_.at == Align::At::Event) meet(text_in(line, "event"), at);
         const bool outermost = text_in(line, "plan").find('/') == std::string::npos;
-        if (kind == "plan-end" && outermost) made_.how = json_quote(text_in(line, "result"));
+        if (kind == "plan-end" && outermost && robot_.empty()) {
+            made_.how = json_quote(text_in(line, "result"));
+        }
     }
 
+    // Of one robot it is known by both names where that is asked for.
     void meet(const std::string& name, Time at) {
-        made_.known.insert(name);
-        if (name == align_.name && !made_.start) made_.start = at;
+        const std::string full = robot_.empty() ? name : robot_ + "/" + name;
+        made_.known.insert(align_.name.find('/') == std::string::npos ? name : full);
+        if ((name == align_.name || full == align_.name) && !made_.start) made_.start = at;
     }
 
     const mcap::Reader& reader_;
     const Align& align_;
+    std::set<std::string, std::less<>> robots_;
+    std::string robot_;  // whose message is seen
     Survey made_;
 };
 
@@ -96,19 +127,19 @@ private:
 class Lanes {
 public:
     // `from_start`: both as a whole. `apart`: how far samples of the two are from each other.
-    Lanes(bool from_start, Duration apart) : apart_(apart) {
-        const auto lines = [this](std::string_view topic, std::vector<std::string> without,
-                                  Telling telling = Telling::Lines) {
-            without.emplace_back("t");
-            add(make_lines_lane(std::string(topic), std::move(without), telling));
-        };
+    // `robots`: of either, with projects of their own.
+    Lanes(bool from_start, Duration apart, const std::vector<std::string>& robots)
+        : from_start_(from_start), apart_(apart), robots_(robots.begin(), robots.end()) {
         lines(kInputTopic, {});
-        // Activations count from the beginning of the run.
-        lines(kTraceTopic,
-              from_start ? std::vector<std::string>() : std::vector<std::string>{"activation"});
-        lines(kEventsTopic, {"frame"});
+        lines_of_bus("");
         lines(kSceneTopic, {}, Telling::WhatDiffers);
         if (from_start) lines(kCheckTopic, {}, Telling::WhatDiffers);
+        for (const std::string& robot : robots) {
+            const std::string below = std::string(kRobotTopics) + robot;
+            if (by_name_.contains(below + std::string(kTraceTopic))) continue;  // of both
+            lines_of_bus(below);
+            if (from_start) lines(below + std::string(kCheckTopic), {}, Telling::WhatDiffers);
+        }
     }
 
     void take(Side side, const std::string& topic, Time at, std::string_view data) {
@@ -139,12 +170,26 @@ public:
     std::vector<ComparedLane> result() const {
         std::vector<ComparedLane> all;
         for (const auto& lane : lanes_) {
-            all.push_back({lane->name(), lane->compared(), lane->difference()});
+            all.push_back({lane->name(), robot_of(lane->name(), robots_), lane->compared(),
+                           lane->difference()});
         }
         return all;
     }
 
 private:
+    void lines(std::string_view topic, std::vector<std::string> without,
+               Telling telling = Telling::Lines) {
+        without.emplace_back("t");
+        add(make_lines_lane(std::string(topic), std::move(without), telling));
+    }
+
+    // Activations count from the beginning of the run.
+    void lines_of_bus(const std::string& below) {
+        lines(below + std::string(kTraceTopic),
+              from_start_ ? std::vector<std::string>() : std::vector<std::string>{"activation"});
+        lines(below + std::string(kEventsTopic), {"frame"});
+    }
+
     void add(std::unique_ptr<Lane> lane) {
         by_name_[lane->name()] = lane.get();
         lanes_.push_back(std::move(lane));
@@ -161,7 +206,9 @@ private:
         }
     }
 
+    bool from_start_;
     Duration apart_;
+    std::set<std::string, std::less<>> robots_;
     std::vector<std::unique_ptr<Lane>> lanes_;
     std::map<std::string, Lane*> by_name_;
 };
@@ -213,7 +260,7 @@ ComparedLane compare_ends(const Survey& a, const Survey& b) {
         return fmt::format(R"({{"t":{}{}}})", seconds_text(one.end),
                            one.how.empty() ? "" : ",\"result\":" + one.how);
     };
-    ComparedLane lane{.name = std::string(kEndLane), .compared = 1, .difference = {}};
+    ComparedLane lane{.name = std::string(kEndLane), .compared = 1};
     const Time end_a = a.end - *a.start;
     const Time end_b = b.end - *b.start;
     if (end_a == end_b && a.how == b.how) return lane;
@@ -289,7 +336,9 @@ Result<Comparison> compare_runs(const mcap::Reader& a, const mcap::Reader& b, co
     compare_started(of_a.about, of_b.about, made.started);
     compare_files(a, b, made.started);
     const bool from_start = align.at == Align::At::Start;
-    Lanes lanes(from_start, made.start_a - made.start_b);
+    std::vector<std::string> robots = of_a.robots;
+    robots.insert(robots.end(), of_b.robots.begin(), of_b.robots.end());
+    Lanes lanes(from_start, made.start_a - made.start_b, robots);
     const Time end = std::min(of_a.end - made.start_a, of_b.end - made.start_b);
     run_through(lanes, {a, Side::A, made.start_a}, {b, Side::B, made.start_b}, end);
     made.lanes = lanes.result();
@@ -299,6 +348,28 @@ Result<Comparison> compare_runs(const mcap::Reader& a, const mcap::Reader& b, co
 }
 
 // ---- as text ----
+
+namespace {
+
+// Of a robot without any difference one name stands for all its lanes.
+std::string lanes_without_difference(const std::vector<ComparedLane>& lanes) {
+    std::set<std::string> differ;
+    for (const ComparedLane& lane : lanes) {
+        if (lane.difference && !lane.robot.empty()) differ.insert(lane.robot);
+    }
+    std::string text;
+    std::set<std::string> told;
+    for (const ComparedLane& lane : lanes) {
+        if (lane.difference) continue;
+        const bool of_same = !lane.robot.empty() && !differ.contains(lane.robot);
+        if (of_same && !told.insert(lane.robot).second) continue;
+        text += text.empty() ? "" : ", ";
+        text += of_same ? std::string(kRobotTopics) + lane.robot : lane.name;
+    }
+    return text;
+}
+
+}  // namespace
 
 std::string format_comparison(const Comparison& found, const std::string& a, const std::string& b) {
     std::string text;
@@ -322,10 +393,7 @@ std::string format_comparison(const Comparison& found, const std::string& a, con
                             in_a == in_b ? "" : fmt::format(" of A, {} s of B", in_b), lane.name,
                             one.place.empty() ? "" : ", " + one.place, both(one.a, one.b));
     }
-    std::string same;
-    for (const ComparedLane& lane : found.lanes) {
-        if (!lane.difference) same += (same.empty() ? "" : ", ") + lane.name;
-    }
+    const std::string same = lanes_without_difference(found.lanes);
     if (!found.differs()) {
         return text + fmt::format("{} and {}: {} values compared: no difference\n", a, b, compared);
     }

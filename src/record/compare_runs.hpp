@@ -5,8 +5,9 @@
 //
 // Lanes are the channels of recordings: what came from outside, the trace of the plan, the events
 // of the bus, the variables of each node, the pose of each robot and loose object, what is in the
-// world, and how the run ended; the checks, too, where both are aligned at the start. What lies
-// beyond the end of the shorter one is not compared.
+// world, and how the run ended; the checks, too, where both are aligned at the start. Each robot
+// with a project of its own has lanes of its own. What lies beyond the end of the shorter one is
+// not compared.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,9 @@ namespace vagus::record {
 struct Align {
     enum class At : uint8_t { Start, Actor, Event };
     At at = At::Start;
-    std::string name = {};  // of an actor, which begins; of an event of the bus or of a supervisor
+    // Of an actor, which begins; of an event of the bus or of a supervisor. Of robots with projects
+    // of their own that of any, or of one as ROBOT/NAME.
+    std::string name = {};
 };
 
 // "start", "actor NAME", "event NAME".
@@ -38,7 +41,8 @@ struct StartedApart {
 };
 
 struct ComparedLane {
-    std::string name;  // its channel; "/world/poses carbot", "end"
+    std::string name;        // its channel; "/world/poses carbot", "end"
+    std::string robot = {};  // whose project it belongs to; empty: nobody's
     uint64_t compared = 0;
     std::optional<LaneDifference> difference = {};
 };

@@ -161,7 +161,8 @@ struct Said {
 };
 
 std::string recording(const std::string& max_time, const std::vector<Said>& messages,
-                      const std::string& script = "var n\n") {
+                      const std::string& script = "var n\n",
+                      const std::vector<std::string>& robots = {}) {
     std::string bytes;
     mcap::Writer writer([&bytes](std::string_view more) {
         bytes += more;
@@ -183,6 +184,7 @@ std::string recording(const std::string& max_time, const std::vector<Said>& mess
     RunFile about;
     about.verb = "plan run";
     about.max_time = max_time;
+    about.robots = robots;
     put(std::string(kRunTopic), 0s, format_run(about));
     for (const Said& one : messages) put(one.topic, one.at, one.data);
     EXPECT_TRUE(writer.end().ok());
@@ -251,6 +253,51 @@ TEST(CompareRuns, AlignedAtAnActorOrAnEvent) {
               "differs at 3.100000 s of A, 7.600000 s of B: /bus/events\n  A: {\"name\":\"y\"}\n"
               "  B: nothing\n"
               "no difference: /vagus/input, /plan/trace, /world/scene, end\n");
+}
+
+// ---- robots with projects of their own ----
+
+Said of(const std::string& robot, Said said) {
+    said.topic.insert(0, "/robot/" + robot);
+    return said;
+}
+
+// A name may have a slash, and be the beginning of another one.
+TEST(CompareRuns, EachRobotHasLanesOfItsOwn) {
+    const std::vector<std::string> robots = {"r", "r/2", "s"};
+    const std::string a = recording("9",
+                                    {of("r", starts(1s, "go", 1)), of("r/2", emits(2s, "x")),
+                                     of("s", emits(2s, "x")), of("r", ends(3s))},
+                                    "var n\n", robots);
+    const std::string b = recording("9",
+                                    {of("r", starts(1s, "go", 1)), of("r/2", emits(2s, "y")),
+                                     of("s", emits(2s, "x")), of("r", ends(3s))},
+                                    "var n\n", robots);
+    const Comparison found = compared(a, b);
+    EXPECT_EQ(format_comparison(found, "a", "b"),
+              "differs at 2.000000 s: /robot/r/2/bus/events, name\n  A: {\"name\":\"x\"}\n"
+              "  B: {\"name\":\"y\"}\n"
+              "no difference: /vagus/input, /plan/trace, /bus/events, /world/scene, /vagus/check, "
+              "/robot/r, /robot/r/2/plan/trace, /robot/r/2/vagus/check, /robot/s, end\n");
+    EXPECT_EQ(found.lanes.front().robot, "r/2");
+}
+
+TEST(CompareRuns, AlignedAtTheFirstOfAnyRobotOrAtThatOfOne) {
+    const std::string a = recording(
+        "9", {of("r", starts(1s, "go", 1)), of("s", starts(2s, "go", 1)), of("s", ends(5s))},
+        "var n\n", {"r", "s"});
+    const std::string b = recording(
+        "9", {of("s", starts(2500ms, "go", 1)), of("r", starts(4s, "go", 1)), of("s", ends(5s))},
+        "var n\n", {"r", "s"});
+    const Comparison any = compared(a, b, {Align::At::Actor, "go"});
+    EXPECT_EQ(any.start_a, 1s);
+    EXPECT_EQ(any.start_b, 2500ms);
+    const Comparison one = compared(a, b, {Align::At::Actor, "r/go"});
+    EXPECT_EQ(one.start_b, 4s);
+    const auto reader = mcap::Reader::open(a, "a.mcap");
+    EXPECT_EQ(
+        compare_runs(reader.value(), reader.value(), {Align::At::Actor, "r/stop"}).error().what,
+        "--align: in a.mcap began no actor \"r/stop\"; there are: r/go, s/go");
 }
 
 TEST(CompareRuns, WhatItCannotBeAlignedAt) {

@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kForms =
     "NODE:LINE, as drive:42, or @ACTOR.enter, @ACTOR.leave or @SUPERVISOR.raise of the plan";
+constexpr std::string_view kFormsOfRobot =
+    ", of each robot that has it, or of one as r4/drive:42 or r4/@ACTOR.enter";
 
 Error refuse(Code code, const LogWish& wish, std::string_view sentence) {
     return {code, fmt::format("--log {}: {}", wish.where, sentence)};
@@ -132,42 +134,63 @@ std::vector<std::string> supervisors_of(const plan::GraphPlan& plan) {
 
 // ---- setting them ----
 
-Result<std::unique_ptr<LogPoints>> LogPoints::set(const std::vector<LogWish>& wishes, Run run,
-                                                  Told told) {
+LogPoints::LogPoints(std::vector<Bus> buses, Told told)
+    : buses_(std::move(buses)), told_(std::move(told)) {
+    for (size_t i = 0; i < buses_.size(); ++i) {
+        const Bus& bus = buses_[i];
+        variables_.emplace_back();
+        if (bus.graph != nullptr) variables_.back().emplace(*bus.graph);
+        if (bus.robot.empty()) continue;
+        if (bus_of_robot_.size() <= bus.number) bus_of_robot_.resize(bus.number + 1u);
+        bus_of_robot_[bus.number] = i;
+    }
+    if (world_session() == nullptr) return;
+    // All others are on the common one.
+    bus_of_robot_.resize(world_session()->world().definition().robots.size() + 1);
+}
+
+Result<std::unique_ptr<LogPoints>> LogPoints::set(const std::vector<LogWish>& wishes,
+                                                  std::vector<Bus> buses, Told told) {
     if (wishes.size() > kLogPointsMax) {
         return Error{Code::Limit, fmt::format("there are {} log points; at most {} are possible",
                                               wishes.size(), kLogPointsMax)};
     }
     // make_unique cannot reach the constructor.
-    std::unique_ptr<LogPoints> made(new LogPoints(run, std::move(told)));
-    if (run.graph != nullptr) made->variables_.emplace(*run.graph);
-    for (const LogWish& wish : wishes) TRY(made->add(wish));
+    std::unique_ptr<LogPoints> made(new LogPoints(std::move(buses), std::move(told)));
+    for (size_t i = 0; i < wishes.size(); ++i) {
+        made->wishes_.push_back(wishes[i].where);
+        TRY(made->add(i, wishes[i]));
+    }
+    made->hits_.resize(wishes.size());
     if (made->settled()) TRY(made->check());
     made->watching_ = !made->of_nodes_.empty();
-    if (made->watching_) run.session->world().watch(made.get());
+    if (made->watching_) made->world_session()->world().watch(made.get());
     return made;
 }
 
 LogPoints::~LogPoints() {
-    if (watching_) run_.session->world().watch(nullptr);
+    if (watching_) world_session()->world().watch(nullptr);
 }
 
-Status LogPoints::add(const LogWish& wish) {
-    if (wish.where.starts_with('@')) return add_element(wish);
+Status LogPoints::add(size_t number, const LogWish& wish) {
+    const bool of_robot = is_fleet() && wish.where.find("/@") != std::string::npos;
+    if (wish.where.starts_with('@') || of_robot) return add_element(number, wish);
     const size_t colon = wish.where.rfind(':');
-    OfNode made{.wish = wish, .node = {}, .line = 0, .values = TRY(values_of(wish))};
+    OfNode made{
+        .number = number, .wish = wish, .node = {}, .line = 0, .values = TRY(values_of(wish))};
     int line = 0;
     if (colon != std::string::npos) {
         const std::string digits = wish.where.substr(colon + 1);
-        const bool number = !digits.empty() && digits.size() <= 7 &&
-                            digits.find_first_not_of("0123456789") == std::string::npos;
-        if (number) line = std::stoi(digits);
+        const bool is_number = !digits.empty() && digits.size() <= 7 &&
+                               digits.find_first_not_of("0123456789") == std::string::npos;
+        if (is_number) line = std::stoi(digits);
     }
     if (line == 0) {
         return refuse(Code::BadInput, wish,
-                      fmt::format("expected {}; found \"{}\"", kForms, wish.where));
+                      fmt::format("expected {}{}; found \"{}\"", kForms,
+                                  is_fleet() ? kFormsOfRobot : "", wish.where));
     }
-    if (run_.session == nullptr) {
+    if (world_session() == nullptr) {
         return refuse(
             Code::NotFound, wish,
             "no node of this run can be run again, for it is of a plan alone or of a real bus");
@@ -178,31 +201,71 @@ Status LogPoints::add(const LogWish& wish) {
     return Status::done();
 }
 
-Status LogPoints::add_element(const LogWish& wish) {
-    const size_t dot = wish.where.rfind('.');
-    const std::string word = dot == std::string::npos ? "" : wish.where.substr(dot + 1);
+// In a fleet "r4/@takeTask.enter"; without a robot that of each whose plan has it.
+Status LogPoints::add_element(size_t number, const LogWish& wish) {
+    const size_t at = wish.where.starts_with('@') ? 0 : wish.where.find("/@") + 1;
+    const std::string robot = wish.where.substr(0, at == 0 ? 0 : at - 1);
+    const std::string_view place = std::string_view(wish.where).substr(at);
+    TRY(check_robot(wish, robot));
+    std::optional<Error> missing;
+    bool found = false;
+    for (size_t i = 0; i < buses_.size(); ++i) {
+        const bool asked = robot.empty() || buses_[i].robot == robot;
+        if (!asked || buses_[i].graph == nullptr) continue;
+        auto made = element(wish, place, i);
+        if (made.ok()) {
+            found = true;
+            made.value().number = number;
+            of_elements_.push_back(std::make_unique<OfElement>(std::move(made.value())));
+        } else if (!missing) {
+            missing = made.error();
+        }
+    }
+    if (found) return Status::done();
+    if (missing) return *missing;
+    if (!robot.empty()) return refuse(Code::NotFound, wish, robot + " has no plan");
+    return refuse(Code::NotFound, wish,
+                  is_fleet() ? "no robot of this run has a plan"
+                             : "the run is of a world alone: it has no plan");
+}
+
+Status LogPoints::check_robot(const LogWish& wish, const std::string& robot) const {
+    if (robot.empty() || world_session()->world().find_robot(robot)) return Status::done();
+    std::vector<std::string> known;
+    for (const sim::RobotDefinition& one : world_session()->world().definition().robots) {
+        known.push_back(one.name);
+    }
+    return refuse(Code::NotFound, wish,
+                  fmt::format("there is no robot \"{}\"; {}", robot, known_instead(robot, known)));
+}
+
+// `place`: "@takeTask.enter", "@Pick/takeTask.enter".
+Result<LogPoints::OfElement> LogPoints::element(const LogWish& wish, std::string_view place,
+                                                size_t bus) const {
+    const size_t dot = place.rfind('.');
+    const std::string_view word = dot == std::string_view::npos ? "" : place.substr(dot + 1);
     if (word != "enter" && word != "leave" && word != "raise") {
         return refuse(Code::BadInput, wish,
-                      fmt::format("expected {}; found \"{}\"", kForms, wish.where));
+                      fmt::format("expected {}{}; found \"{}\"", kForms,
+                                  is_fleet() ? kFormsOfRobot : "", wish.where));
     }
-    if (run_.graph == nullptr) {
-        return refuse(Code::NotFound, wish, "the run is of a world alone: it has no plan");
-    }
-    auto made = std::make_unique<OfElement>();
-    made->wish = wish;
-    made->when = word == "enter" ? When::Enter : word == "leave" ? When::Leave : When::Raise;
-    made->element = wish.where.substr(1, dot - 1);
-    const size_t slash = made->element.rfind('/');
+    OfElement made;
+    made.wish = wish;
+    made.bus = bus;
+    const std::string& robot = buses_[bus].robot;
+    made.where = robot.empty() ? wish.where : fmt::format("{}/{}", robot, place);
+    made.when = word == "enter" ? When::Enter : word == "leave" ? When::Leave : When::Raise;
+    made.element = place.substr(1, dot - 1);
+    const size_t slash = made.element.rfind('/');
     const bool named = slash != std::string::npos;
-    const std::string of_plan = named ? made->element.substr(0, slash) : "";
-    if (named) made->element = made->element.substr(slash + 1);
-    const plan::GraphPlan* const plan = TRY(plan_with(*made, of_plan));
-    made->plan = plan->file;
+    const std::string of_plan = named ? made.element.substr(0, slash) : "";
+    if (named) made.element = made.element.substr(slash + 1);
+    const plan::GraphPlan* const plan = TRY(plan_with(made, of_plan));
+    made.plan = plan->file;
     for (const std::string& text : TRY(values_of(wish))) {
-        made->values.emplace_back(text, TRY(formula(wish, text, *plan)));
+        made.values.emplace_back(text, TRY(formula(wish, text, *plan)));
     }
-    of_elements_.push_back(std::move(made));
-    return Status::done();
+    return made;
 }
 
 Result<const plan::GraphPlan*> LogPoints::plan_with(const OfElement& point,
@@ -213,7 +276,7 @@ Result<const plan::GraphPlan*> LogPoints::plan_with(const OfElement& point,
     bool plan_there = of_plan.empty();
     std::vector<std::string> known;
     std::vector<std::string> plans;
-    for (const plan::GraphPlan& plan : run_.graph->plans) {
+    for (const plan::GraphPlan& plan : buses_[point.bus].graph->plans) {
         plans.push_back(plan.name);
         if (!of_plan.empty() && plan.name != of_plan && plan.file != of_plan) continue;
         plan_there = true;
@@ -221,10 +284,10 @@ Result<const plan::GraphPlan*> LogPoints::plan_with(const OfElement& point,
         known.insert(known.end(), names.begin(), names.end());
         if (std::find(names.begin(), names.end(), name) == names.end()) continue;
         if (found != nullptr) {
-            return refuse(
-                Code::BadInput, point.wish,
-                fmt::format("the plans {} and {} both have a {}; say which, as @{}/{}", found->name,
-                            plan.name, name, found->name, point.wish.where.substr(1)));
+            return refuse(Code::BadInput, point.wish,
+                          fmt::format("the plans {} and {} both have a {}; say which, as @{}/{}",
+                                      found->name, plan.name, name, found->name,
+                                      point.wish.where.substr(point.wish.where.find('@') + 1)));
         }
         found = &plan;
     }
@@ -254,51 +317,74 @@ Result<run::Expression> LogPoints::formula(const LogWish& wish, const std::strin
                   fmt::format("\"{}\": {}", text, expression.error().what));
 }
 
-std::string LogPoints::label_of(const session::NodeState& node) const {
-    const auto& robots = run_.session->world().definition().robots;
-    return robots.size() == 1 ? node.name : robots[node.robot.number - 1].name + "/" + node.name;
+std::string LogPoints::label_of(const Bus& bus, const session::NodeState& node) const {
+    const auto& robots = world_session()->world().definition().robots;
+    return robots.size() == 1 && bus.robot.empty()
+               ? node.name
+               : robots[node.robot.number - 1].name + "/" + node.name;
 }
 
 bool LogPoints::settled() const {
-    return run_.session == nullptr || run_.session->settled();
+    return std::all_of(buses_.begin(), buses_.end(), [](const Bus& bus) {
+        return bus.session == nullptr || bus.session->settled();
+    });
 }
 
 Status LogPoints::check() const {
-    if (of_nodes_.empty()) return Status::done();
-    const std::vector<session::NodeState> nodes = run_.session->nodes();
-    for (const OfNode& wish : of_nodes_) {
-        bool found = false;
-        std::vector<std::string> known;
-        for (const session::NodeState& node : nodes) {
-            known.push_back(label_of(node));
-            if (node.name != wish.node && known.back() != wish.node) continue;
-            found = true;
-            const aesl::Program* const program = run_.session->program(node.id);
-            if (program == nullptr) {
-                return refuse(Code::NotFound, wish.wish, known.back() + " has no script");
-            }
-            (void)TRY(place(wish, node, *program));
-        }
-        if (found) continue;
-        return refuse(
-            Code::NotFound, wish.wish,
-            fmt::format("there is no node \"{}\"; {}", wish.node, known_instead(wish.node, known)));
-    }
+    for (const OfNode& wish : of_nodes_) TRY(check(wish));
     return Status::done();
+}
+
+// A robot with another project may lack it, as long as one has it.
+Status LogPoints::check(const OfNode& wish) const {
+    std::optional<Error> missing;
+    bool line_is_there = false;  // where that is missing
+    std::vector<std::string> known;
+    OfNode line = wish;
+    line.values.clear();
+    for (const Bus& bus : buses_) {
+        const Result<bool> there = has_place(wish, bus, known);
+        if (there.ok() && there.value()) return Status::done();
+        if (there.ok() || line_is_there) continue;
+        line_is_there = has_place(line, bus, known).ok();
+        if (!missing || line_is_there) missing = there.error();
+    }
+    if (missing) return *missing;
+    return refuse(
+        Code::NotFound, wish.wish,
+        fmt::format("there is no node \"{}\"; {}", wish.node, known_instead(wish.node, known)));
+}
+
+// The Error: a node of that name lacks it.
+Result<bool> LogPoints::has_place(const OfNode& wish, const Bus& bus,
+                                  std::vector<std::string>& known) const {
+    bool found = false;
+    for (const session::NodeState& node : bus.session->nodes()) {
+        known.push_back(label_of(bus, node));
+        if (node.name != wish.node && known.back() != wish.node) continue;
+        found = true;
+        const aesl::Program* const program = bus.session->program(node.id);
+        if (program == nullptr) {
+            return refuse(Code::NotFound, wish.wish, known.back() + " has no script");
+        }
+        (void)TRY(place(wish, bus, node, *program));
+    }
+    return found;
 }
 
 // ---- lines ----
 
-Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const session::NodeState& node,
+Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const Bus& bus,
+                                          const session::NodeState& node,
                                           const aesl::Program& program) const {
-    const auto first = run_.session->place_of(node.id, 1);
+    const auto first = bus.session->place_of(node.id, 1);
     const int before = first ? first->second - 1 : 0;
     const std::string file =
         first ? std::filesystem::path(first->first).filename().string() : node.name;
     if (!wish.wish.file.empty() && file != wish.wish.file) {
         return refuse(Code::NotFound, wish.wish,
                       fmt::format("in the recorded run {} had the script of {}, not of {}",
-                                  label_of(node), file, wish.wish.file));
+                                  label_of(bus, node), file, wish.wish.file));
     }
     const int line = wish.line - before;
     const int pc = debug::pc_of(program, line);
@@ -312,20 +398,21 @@ Result<LogPoints::Point> LogPoints::place(const OfNode& wish, const session::Nod
         }
         return refuse(Code::NotFound, wish.wish,
                       fmt::format("{} has no code at line {} of {}; the nearest with code: {}",
-                                  label_of(node), line + told, of_script ? "its script" : file,
+                                  label_of(bus, node), line + told, of_script ? "its script" : file,
                                   near.empty() ? "none" : near));
     }
     Point point{.wish = 0,
                 .pc = static_cast<uint16_t>(pc),
-                .where = fmt::format("{}:{}", label_of(node), wish.line),
+                .where = fmt::format("{}:{}", label_of(bus, node), wish.line),
                 .values = {}};
     for (const std::string& text : wish.values) {
-        point.values.push_back(TRY(show(wish, text, program)));
+        point.values.push_back(TRY(show(wish, bus, text, program)));
     }
     return point;
 }
 
-Result<LogPoints::Shown> LogPoints::show(const OfNode& wish, const std::string& text,
+Result<LogPoints::Shown> LogPoints::show(const OfNode& wish, const Bus& bus,
+                                         const std::string& text,
                                          const aesl::Program& program) const {
     Shown shown{.name = text, .list = {}, .expression = {}};
     std::vector<std::string> known;  // the script's own first
@@ -335,7 +422,7 @@ Result<LogPoints::Shown> LogPoints::show(const OfNode& wish, const std::string& 
         shown.list = *one;
         return shown;
     }
-    const std::vector<aesl::Constant>& constants = run_.session->common().constants;
+    const std::vector<aesl::Constant>& constants = bus.session->common().constants;
     for (const aesl::Constant& one : constants) known.push_back(one.name);
     if (is_name(text) && std::find(known.begin(), known.end(), text) == known.end()) {
         return refuse(Code::NotFound, wish.wish,
@@ -355,12 +442,13 @@ void LogPoints::learn(Program& program, const sim::WitnessedNode& node,
                       const aesl::Program* now) const {
     program = {.known = now, .here = {}, .points = {}};
     if (now == nullptr) return;
-    for (const session::NodeState& one : run_.session->nodes()) {
+    const Bus& bus = bus_of(node);
+    for (const session::NodeState& one : bus.session->nodes()) {
         if (one.id != node.id || one.robot.number != node.robot) continue;
         for (size_t i = 0; i < of_nodes_.size(); ++i) {
             const OfNode& wish = of_nodes_[i];
-            if (one.name != wish.node && label_of(one) != wish.node) continue;
-            auto point = place(wish, one, *now);
+            if (one.name != wish.node && label_of(bus, one) != wish.node) continue;
+            auto point = place(wish, bus, one, *now);
             if (!point.ok()) continue;  // which check() says
             point.value().wish = i;
             if (program.here.size() <= point.value().pc) program.here.resize(point.value().pc + 1u);
@@ -374,7 +462,7 @@ void LogPoints::learn(Program& program, const sim::WitnessedNode& node,
 void LogPoints::executes(const sim::WitnessedNode& node, uint16_t pc) {
     if (!told_) return;
     Program& program = programs_[(uint64_t{node.robot} << 16) | node.id];
-    const aesl::Program* const now = run_.session->program(node.id);
+    const aesl::Program* const now = bus_of(node).session->program(node.id);
     if (program.known != now) learn(program, node, now);
     if (pc >= program.here.size() || !program.here[pc]) return;
     for (const Point& point : program.points) {
@@ -383,9 +471,10 @@ void LogPoints::executes(const sim::WitnessedNode& node, uint16_t pc) {
 }
 
 void LogPoints::tell(const Point& point, const sim::WitnessedNode& node) {
-    ++of_nodes_[point.wish].hits;
-    const auto memory = run_.session->world().variables(sim::RobotId{node.robot}, node.id);
-    LogHit hit{.at = run_.session->now(), .where = point.where, .values = {}};
+    ++hits_[of_nodes_[point.wish].number];
+    const session::SimSession& session = *world_session();
+    const auto memory = session.world().variables(sim::RobotId{node.robot}, node.id);
+    LogHit hit{.at = session.now(), .where = point.where, .values = {}};
     for (const Shown& shown : point.values) {
         if (shown.list) {
             const auto words = words_of(memory, *shown.list);
@@ -400,17 +489,21 @@ void LogPoints::tell(const Point& point, const sim::WitnessedNode& node) {
 
 // ---- elements ----
 
-void LogPoints::see(const plan::TraceEvent& event) {
-    if (!told_ || !variables_) return;
+void LogPoints::see(size_t bus, const plan::TraceEvent& event) {
+    if (!told_ || bus >= variables_.size() || !variables_[bus]) return;
     const bool writes = std::holds_alternative<plan::VariableWritten>(event.what);
-    if (!writes || (!waiting_.empty() && waiting_.front().at != event.at)) tell_waiting();
-    variables_->see(event);
+    tell_waiting([&](const Waiting& one) {
+        return one.at != event.at || (one.point->bus == bus && !writes);
+    });
+    run::TracedVariables& variables = *variables_[bus];
+    variables.see(event);
     const int level = run::level_of(event);
     const auto* const started = std::get_if<plan::ActorStarted>(&event.what);
     const auto* const ended = std::get_if<plan::ActorEnded>(&event.what);
     const auto* const broken = std::get_if<plan::ActorInterrupted>(&event.what);
     const auto* const raised = std::get_if<plan::EventRaised>(&event.what);
     for (const auto& point : of_elements_) {
+        if (point->bus != bus) continue;
         const bool enters =
             point->when == When::Enter && started != nullptr && started->actor == point->element;
         const bool leaves =
@@ -419,23 +512,36 @@ void LogPoints::see(const plan::TraceEvent& event) {
         const bool raises =
             point->when == When::Raise && raised != nullptr && raised->supervisor == point->element;
         if (!enters && !leaves && !raises) continue;
-        if (variables_->plan_at(level).file != point->plan) continue;
+        if (variables.plan_at(level).file != point->plan) continue;
         if (enters) tell(*point, event.at, level);
         if (!enters) waiting_.push_back({point.get(), event.at, level});
     }
 }
 
 // What an element writes as it ends follows its line.
+template <typename Is>
+void LogPoints::tell_waiting(const Is& is) {
+    if (waiting_.empty()) return;
+    std::vector<Waiting> later;
+    for (const Waiting& one : std::exchange(waiting_, {})) {
+        if (is(one)) tell(*one.point, one.at, one.level);
+        if (!is(one)) later.push_back(one);
+    }
+    waiting_ = std::move(later);
+}
+
 void LogPoints::tell_waiting() {
-    for (const Waiting& one : std::exchange(waiting_, {})) tell(*one.point, one.at, one.level);
+    tell_waiting([](const Waiting&) { return true; });
 }
 
 void LogPoints::tell(OfElement& point, Time at, int level) {
-    ++point.hits;
-    LogHit hit{.at = at, .where = point.wish.where, .values = {}};
-    const auto value_of = [this, level](const run::Expression& formula) -> Result<std::string> {
+    ++hits_[point.number];
+    LogHit hit{.at = at, .where = point.where, .values = {}};
+    const run::TracedVariables& variables = *variables_[point.bus];
+    const auto value_of = [&variables,
+                           level](const run::Expression& formula) -> Result<std::string> {
         std::vector<plan::Value> values;
-        for (const int slot : formula.slots()) values.push_back(variables_->value(level, slot));
+        for (const int slot : formula.slots()) values.push_back(variables.value(level, slot));
         return json_of(TRY(formula.evaluate(values)));
     };
     for (const auto& [name, formula] : point.values) {
@@ -446,11 +552,8 @@ void LogPoints::tell(OfElement& point, Time at, int level) {
 
 std::vector<std::string> LogPoints::not_reached() const {
     std::vector<std::string> places;
-    for (const OfNode& one : of_nodes_) {
-        if (one.hits == 0) places.push_back(one.wish.where);
-    }
-    for (const auto& one : of_elements_) {
-        if (one->hits == 0) places.push_back(one->wish.where);
+    for (size_t i = 0; i < wishes_.size(); ++i) {
+        if (hits_[i] == 0) places.push_back(wishes_[i]);
     }
     return places;
 }

@@ -12,10 +12,13 @@
 #include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "embed/prepared_run.hpp"
+#include "embed/robots_run.hpp"
 #include "mcap/reader.hpp"
 #include "record/compare_tape.hpp"
+#include "record/log_run.hpp"
 #include "record/plan_recording.hpp"
 #include "record/replay.hpp"
+#include "record/sim_recording.hpp"
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
 
@@ -176,7 +179,7 @@ TEST(LogPoints, RandomOnesTellWhatTheRunItselfHeld) {
         const std::vector<LogWish> some(wishes.begin() + static_cast<std::ptrdiff_t>(first),
                                         wishes.begin() + static_cast<std::ptrdiff_t>(last));
         const auto points =
-            LogPoints::set(some, {rerun.value()->session(), nullptr},
+            LogPoints::set(some, {{rerun.value()->session(), nullptr}},
                            [&told](const LogHit& hit) { told.push_back(text_of(hit)); });
         ASSERT_TRUE(points.ok()) << points.error().what;
         CompareTape tape(reader.value());
@@ -189,6 +192,64 @@ TEST(LogPoints, RandomOnesTellWhatTheRunItselfHeld) {
     std::sort(told.begin(), told.end());
     EXPECT_EQ(told.size(), seen.size());
     EXPECT_TRUE(told == seen);
+}
+
+// ---- a fleet ----
+
+std::vector<LogPoints::Bus> buses_of_run(embed::RobotsRun& run) {
+    std::vector<LogPoints::Bus> all = {{&run.buses().common(), nullptr}};
+    for (size_t i = 0; i < run.buses().robots().size(); ++i) {
+        const session::RobotBus& robot = run.buses().robots()[i];
+        const plan::Graph* const graph = run.plan(i) != nullptr ? &run.plan(i)->graph() : nullptr;
+        all.push_back({robot.session.get(), graph, robot.name, robot.id.number});
+    }
+    return all;
+}
+
+// The same points are in the run from its beginning, and put into its recording afterwards.
+void expect_told_again(const std::string& world, Time until, const std::vector<LogWish>& wishes) {
+    const test::Folder folder;
+    const std::string path = (folder / "run.mcap").string();
+    std::vector<std::string> then, again;
+    {
+        FilesRead files;
+        RunFile about;
+        about.verb = "sim";
+        about.world = world;
+        auto run = embed::RobotsRun::open({.world = world});
+        ASSERT_TRUE(run.ok()) << run.error().what;
+        auto recording = SimRecording::begin(path, about, files, *run.value(), Pace::Waits);
+        ASSERT_TRUE(recording.ok()) << recording.error().what;
+        const auto points =
+            LogPoints::set(wishes, buses_of_run(*run.value()),
+                           [&then](const LogHit& hit) { then.push_back(format_hit(hit)); });
+        ASSERT_TRUE(points.ok()) << points.error().what;
+        run.value()->watch(points.value().get());
+        ASSERT_TRUE(run.value()->start().ok());
+        run.value()->step(until);
+        points.value()->close();
+        run.value()->watch(nullptr);
+        ASSERT_TRUE(recording.value()->end().ok());
+    }
+    const std::string bytes = read_file(path).value();
+    const auto reader = mcap::Reader::open(bytes, "run.mcap");
+    const auto wanted = [&wishes](Rerun&) -> Wishes { return wishes; };
+    const auto told =
+        log_run(reader.value(), {.wishes = wanted, .told = [&again](const LogHit& hit) {
+                                     again.push_back(format_hit(hit));
+                                 }});
+    ASSERT_TRUE(told.ok()) << told.error().what;
+    EXPECT_GT(then.size(), 10u);
+    EXPECT_EQ(then, again);
+}
+
+// Line 29 of the class: a Thymio looks at the ground. Line 39: it stops.
+TEST(LogPoints, OfAFleetTellWhatTheyWouldHaveToldThen) {
+    expect_told_again(test::examples("alarm/class.world.json"), 8s,
+                      {{"thymio-II:39", "warned, motor.left.target"},
+                       {"t11/thymio-II:29", "warned, prox.ground.delta[0]"}});
+    expect_told_again(test::examples("warehouse/hall.world.json"), 15s,
+                      {{"@meet.enter", "robots"}, {"r3/@whoAmI.enter", "place"}});
 }
 
 // ---- elements, by a trace made by hand ----
@@ -204,10 +265,10 @@ TEST(LogPoints, AnElementIsTakenWithWhatItWrites) {
         {{"@findWallAngle.enter", "wallangle"},
          {"@findWallAngle.leave", "wallangle, wallangle / 2, min(walldist, share)"},
          {"@touch.raise", "wallangle"}},
-        {nullptr, &graph()}, [&told](const LogHit& hit) { told.push_back(format_hit(hit)); });
+        {{nullptr, &graph()}}, [&told](const LogHit& hit) { told.push_back(format_hit(hit)); });
     ASSERT_TRUE(points.ok()) << points.error().what;
     const auto see = [&points](Time at, auto what) {
-        points.value()->see({.at = at, .plan = "WallFollow", .what = std::move(what)});
+        points.value()->see(0, {.at = at, .plan = "WallFollow", .what = std::move(what)});
     };
     see(0s, plan::PlanStarted{});
     see(1s, plan::EventRaised{"touch", "TouchSensorPressed", "backupCollision", false, 1});
@@ -235,8 +296,8 @@ TEST(LogPoints, AnElementIsTakenWithWhatItWrites) {
 std::string refusal(const std::string& where, const std::string& values,
                     const std::string& file = "") {
     static Prepared prepared;
-    const auto points =
-        LogPoints::set({{where, values, file}}, {&prepared.session(), &prepared.plan->graph()}, {});
+    const auto points = LogPoints::set({{where, values, file}},
+                                       {{&prepared.session(), &prepared.plan->graph()}}, {});
     return points.ok() ? "" : points.error().what;
 }
 
@@ -292,7 +353,7 @@ TEST(LogPoints, ValuesOfAScriptAreChecked) {
     EXPECT_THAT(refusal(where, many + ", token"),
                 HasSubstr("shows 17 values; at most 16 are possible"));
     const std::vector<LogWish> points(kLogPointsMax + 1, {where, "token"});
-    const auto set = LogPoints::set(points, {&prepared.session(), nullptr}, {});
+    const auto set = LogPoints::set(points, {{&prepared.session(), nullptr}}, {});
     ASSERT_FALSE(set.ok());
     EXPECT_EQ(set.error().what, "there are 101 log points; at most 100 are possible");
 }

@@ -24,18 +24,31 @@ Error not_the_same(const Difference& found) {
 
 }  // namespace
 
+std::vector<LogPoints::Bus> buses_of(Rerun& rerun) {
+    std::vector<LogPoints::Bus> all;
+    for (const RunBus& one : rerun.buses()) {
+        const plan::Graph* const graph = one.plan != nullptr ? &one.plan->graph() : nullptr;
+        all.push_back({one.session, graph, one.robot, one.number});
+    }
+    return all;
+}
+
+void follow(Rerun& rerun, LogPoints& points) {
+    rerun.listen([&points](const plan::TraceEvent& event) { points.see(0, event); });
+    rerun.watch_robots(&points);
+    rerun.each_instant([&points](Time) { points.instant(); });
+}
+
 Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
     RerunOptions how;
     if (!reader.is_complete()) how.until = end_of(reader);
     const Time until = how.until.value_or(Time::max());
     const std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, how));
-    const LogPoints::Run run{rerun->session(),
-                             rerun->plan() != nullptr ? &rerun->plan()->graph() : nullptr};
     const auto wishes = TRY(wanted.wishes(*rerun));
-    const auto points = TRY(LogPoints::set(wishes, run, wanted.told));
+    const auto points = TRY(LogPoints::set(wishes, buses_of(*rerun), wanted.told));
     CompareTape tape(reader, {}, until);
     LogPlaces places(*points, [&] { return wanted.settled(*rerun); });
-    rerun->listen([&points](const plan::TraceEvent& event) { points->see(event); });
+    follow(*rerun, *points);
     rerun->each_instant([&](Time at) {
         places.look();
         if (places.are_missing() || tape.difference()) rerun->stop();

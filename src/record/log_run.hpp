@@ -27,6 +27,11 @@ struct LogRun {
     std::function<Status(Rerun& rerun)> settled = [](Rerun&) { return Status::done(); };
 };
 
+// What log points are of in a run that is run again.
+std::vector<LogPoints::Bus> buses_of(Rerun& rerun);
+// Before its run: they are told what they need of it. Borrowed for the run.
+void follow(Rerun& rerun, LogPoints& points);
+
 // Up to when it was asked. The Error says what is not there, as soon as that is known, or that the
 // run has not come out as it was recorded, so that what was told counts for nothing.
 Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted);

@@ -32,8 +32,8 @@ Place place_in(const plan::Plan& plan, std::string_view name) {
 
 // A part of the path behind the first is an actor that is a plan.
 const plan::Plan* PlanPlaces::find(const std::string& path) const {
-    if (rerun_.plan() == nullptr) return nullptr;
-    const std::vector<plan::Plan>& plans = rerun_.plan()->plans();
+    if (plan_ == nullptr) return nullptr;
+    const std::vector<plan::Plan>& plans = plan_->plans();
     const plan::Plan* at = &plans.front();
     size_t slash = path.find('/');
     while (slash != std::string::npos) {

@@ -11,8 +11,8 @@ namespace vagus::record {
 
 class PlanPlaces {
 public:
-    // Borrowed.
-    explicit PlanPlaces(const Rerun& rerun) : rerun_(rerun) {}
+    // Both borrowed; a plan of the rerun, or nullptr.
+    PlanPlaces(const Rerun& rerun, const embed::LoadedPlan* plan) : rerun_(rerun), plan_(plan) {}
 
     // An actor or a supervisor of the plan with that instance path ("Rooms/enter"; empty: the
     // outermost). Empty if there is none.
@@ -29,6 +29,7 @@ private:
     std::string place(const plan::Plan& plan, Place at) const;
 
     const Rerun& rerun_;
+    const embed::LoadedPlan* plan_;
 };
 
 }  // namespace vagus::record

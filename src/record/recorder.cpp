@@ -241,7 +241,7 @@ void Recorder::script(const ScriptLoaded& script, const std::string& path) {
 
 void Recorder::from_outside(hub::LinkId from, const wire::Frame& frame) {
     if (from <= last_inside_) return;
-    (void)session_->world().frame_numbers()->sent(frame, 0);
+    (void)session_->world().frame_numbers()->sent(session_->on_bus(frame), 0);
     input(frame);
 }
 

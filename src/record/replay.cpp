@@ -247,7 +247,7 @@ Rerun::Then Rerun::do_again(const Input& input, Recorder& recorder) {
 
 std::string Rerun::name_of(const std::string& path) const {
     const std::string root = folder_.path_of(".");
-    const auto relative = std::filesystem::path(path).lexically_relative(
+    const auto relative = std::filesystem::path(path).lexically_normal().lexically_relative(
         std::filesystem::path(root).lexically_normal());
     const std::string name = relative.generic_string();
     return name.empty() || name.starts_with("..") ? path : name;

@@ -25,7 +25,8 @@
 
 namespace vagus::embed {
 class LoadedPlan;
-}
+class RobotsWatcher;
+}  // namespace vagus::embed
 namespace vagus::session {
 class PlanWorld;
 }
@@ -57,6 +58,15 @@ Result<std::pair<std::string, std::string>> named_file(const mcap::Reader& reade
 // The end of an instant: the first that is not earlier.
 Time instant_of(Time at);
 
+// A bus of a run, with the plan beside it.
+struct RunBus {
+    session::SimSession* session = nullptr;   // nullptr: of a plan alone, or a real one
+    const embed::LoadedPlan* plan = nullptr;  // nullptr: there is none
+    std::string robot = {};                   // whose project it is; empty: the common one
+    uint32_t number = 0;                      // sim::RobotId of that robot
+    std::string fleet = {};                   // that it is in; empty: none
+};
+
 class Rerun {
 public:
     struct Ended {
@@ -78,11 +88,14 @@ public:
     void draw_from(uint64_t seed);
     // What it says goes to the tape. Once. The Error says what could not change on the way.
     virtual Result<Ended> run(Tape& tape) = 0;
-    // Before run(): is told of each line of the trace, and of the end of each instant.
+    // Before run(): is told of each line of the trace of the plan on the common bus, and of the end
+    // of each instant.
     virtual void listen(std::function<void(const plan::TraceEvent&)> listener) = 0;
     // Before run(): is told of what each supervisor raises, before it is taken. True: it is passed
     // over, and from then on the run is another one.
     virtual void pass_over(std::function<bool(const run::Raising&)>) {}
+    // The same of robots with projects of their own, and more. Borrowed; nullptr: nobody.
+    virtual void watch_robots(embed::RobotsWatcher*) {}
     void each_instant(std::function<void(Time)> look) { looks_.push_back(std::move(look)); }
     // Before run(): is told of each act of a person, before it is done again.
     void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
@@ -94,12 +107,15 @@ public:
         return recorder_ != nullptr ? check_by(*recorder_, at) : last_check_;
     }
 
-    // nullptr for a plan alone. Valid while this is.
+    // nullptr for a plan alone; that of the common bus. Valid while this is.
     virtual session::SimSession* session() = 0;
     // nullptr for a plan alone, and for a world without one.
     virtual session::PlanWorld* plan_world() = 0;
     // nullptr without one.
     virtual const embed::LoadedPlan* plan() const = 0;
+    // The common one, or the only one; then those of robots with projects of their own, in the
+    // order of the file.
+    virtual std::vector<RunBus> buses() { return {{session(), plan()}}; }
     // Of a recording of a real bus: what was on it; else nullptr. There is no session then.
     virtual const PastBus* past_bus() const { return nullptr; }
     // When the last thing of it was recorded.

@@ -11,7 +11,8 @@ namespace vagus::record {
 // Its channels have the names of that tape, below a robot.
 class RobotRecorders::Below final : public Tape {
 public:
-    Below(Tape& tape, const std::string& robot) : tape_(tape), prefix_("/robot/" + robot) {}
+    Below(Tape& tape, const std::string& robot)
+        : tape_(tape), prefix_(std::string(kRobotTopics) + robot) {}
 
     uint16_t declare(const Topic& topic) override {
         Topic below = topic;

@@ -99,16 +99,6 @@ Result<RunFile> read_run(std::string_view text, const std::string& name) {
     return run;
 }
 
-Status check_one_bus(const RunFile& run, const std::string& name, std::string_view what) {
-    if (run.robots.empty()) return Status::done();
-    return Error{Code::Refused,
-                 fmt::format("{}: {} needs a run of one bus and one plan, and {} robots of this "
-                             "one have projects of their own; `vagus replay` runs it again, "
-                             "`vagus compare` compares it, and the project of one of them can be "
-                             "run and recorded alone",
-                             name, what, run.robots.size())};
-}
-
 std::string PackedFiles::name_of(const std::string& path) const {
     return path.empty() ? "" : absolute(path).lexically_relative(root).generic_string();
 }

@@ -55,10 +55,6 @@ std::string format_run(const RunFile& run);
 // The Error names what is wrong; `name` is the recording, for its sentence.
 Result<RunFile> read_run(std::string_view text, const std::string& name);
 
-// What is asked of one bus and one plan cannot be asked of a world whose robots have projects of
-// their own. The Error says so of `what`, for instance "why".
-Status check_one_bus(const RunFile& run, const std::string& name, std::string_view what);
-
 struct PackedFiles {
     std::string root;                          // the folder below which all of them are
     std::map<std::string, std::string> files;  // by name: the path from there

@@ -11,18 +11,41 @@ namespace vagus::record {
 
 namespace {
 
+// The plan of that bus in another rerun.
+const embed::LoadedPlan* plan_of(Rerun& rerun, const BusCauses& bus) {
+    for (const RunBus& one : rerun.buses()) {
+        if (one.robot == bus.bus().robot) return one.plan;
+    }
+    return nullptr;
+}
+
 // Follows a rerun in which the event of one line is passed over.
-class Tie {
+class Tie final : private embed::RobotsWatcher {
 public:
-    Tie(Rerun& rerun, const std::vector<Causes::Line>& lines, size_t index)
-        : rerun_(rerun), places_(rerun), lines_(lines), index_(index) {
+    Tie(Rerun& rerun, const BusCauses& bus, size_t index)
+        : rerun_(rerun), places_(rerun, plan_of(rerun, bus)), lines_(bus.lines()), index_(index) {
+        robot_ = bus.bus().robot;
+        for (const RunBus& one : rerun.buses()) robots_.push_back(one.robot);
+        if (!robot_.empty()) {
+            rerun.watch_robots(this);
+            return;
+        }
         rerun.pass_over([this](const run::Raising& raising) { return passes(raising); });
         rerun.listen([this](const plan::TraceEvent& event) { see(event); });
     }
+    ~Tie() override { rerun_.watch_robots(nullptr); }
 
     std::vector<Loser> take() { return std::move(losers_); }
 
 private:
+    // ---- embed::RobotsWatcher; the first bus is that of no robot ----
+    bool passes_over(size_t robot, const run::Raising& raising) override {
+        return robots_[robot + 1] == robot_ && passes(raising);
+    }
+    void line(size_t robot, const plan::TraceEvent& event) override {
+        if (robots_[robot + 1] == robot_) see(event);
+    }
+
     Time at() const { return lines_[index_].event.at; }
     bool looks() const { return passed_ && !over_; }
 
@@ -67,8 +90,10 @@ private:
 
     Rerun& rerun_;
     PlanPlaces places_;
-    const std::vector<Causes::Line>& lines_;
+    const std::vector<BusCauses::Line>& lines_;
     size_t index_;
+    std::string robot_;  // whose plan it is; empty: that of the common bus
+    std::vector<std::string> robots_;
     size_t seen_ = 0;  // lines
     bool passed_ = false;
     bool over_ = false;
@@ -78,10 +103,9 @@ private:
 
 }  // namespace
 
-Result<std::vector<Loser>> losers(const mcap::Reader& reader,
-                                  const std::vector<Causes::Line>& lines, size_t index) {
-    std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = lines[index].event.at}));
-    Tie tie(*rerun, lines, index);
+Result<std::vector<Loser>> losers(const mcap::Reader& reader, const BusCauses& bus, size_t index) {
+    std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = bus.lines()[index].event.at}));
+    Tie tie(*rerun, bus, index);
     NullTape tape;
     (void)TRY(rerun->run(tape));
     return tie.take();

@@ -4,7 +4,7 @@
 // The trace tells only who won. So the run is run again up to that instant, where the event is
 // passed over; whatever ends the activation then is a loser, is passed over, too, and so on.
 //
-//     for (const Loser& loser : TRY(losers(reader, causes.lines(), index))) print(loser.name);
+//     for (const Loser& loser : TRY(losers(reader, causes.bus(0), index))) print(loser.name);
 #pragma once
 
 #include <string>
@@ -23,10 +23,9 @@ struct Loser {
     friend bool operator==(const Loser&, const Loser&) = default;
 };
 
-// Against the event of that line of the trace, in the order of P21. One whose event was taken
-// after it, at the same instant, has not lost.
-Result<std::vector<Loser>> losers(const mcap::Reader& reader,
-                                  const std::vector<Causes::Line>& lines, size_t index);
+// Against the event of that line of the trace of the plan on that bus, in the order of P21. One
+// whose event was taken after it, at the same instant, has not lost.
+Result<std::vector<Loser>> losers(const mcap::Reader& reader, const BusCauses& bus, size_t index);
 
 // "won against sonarNear, which raised NearWall at the same instant".
 std::string won_against(const std::vector<Loser>& losers);

@@ -24,6 +24,8 @@ constexpr std::string_view kPosesTopic = "/world/poses";
 constexpr std::string_view kSceneTopic = "/world/scene";
 constexpr std::string_view kCameraTopics = "/camera/";  // and the name of the robot
 constexpr std::string_view kChaosTopic = "/world/chaos";
+// Before those of a robot with a project of its own: "/robot/r4/plan/trace".
+constexpr std::string_view kRobotTopics = "/robot/";
 
 // How a channel is declared.
 struct Topic {

@@ -16,10 +16,10 @@ using About = Question::About;
 
 // Each takes a run of its own, so not of a whole long chain.
 Status tell_losers(const mcap::Reader& reader, const Causes& causes,
-                   const std::vector<std::pair<size_t, size_t>>& ties, Chain& chain) {
-    for (const auto& [link, line] : ties) {
+                   const std::vector<TiedLink>& ties, Chain& chain) {
+    for (const auto& [link, bus, line] : ties) {
         if (link >= kTiesWithin) break;
-        chain[link].lost = TRY(losers(reader, causes.lines(), line));
+        chain[link].lost = TRY(losers(reader, causes.bus(bus), line));
         if (!chain[link].lost.empty()) chain[link].what += " and " + won_against(chain[link].lost);
     }
     return Status::done();
@@ -65,9 +65,8 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
     // Of a run that goes on there is what was written by now.
     if (!reader.is_complete()) at = std::min(at.value_or(Time::max()), end_of(reader));
     std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = at}));
-    TRY(check_one_bus(rerun->about(), reader.name(), "why"));
     std::optional<Result<Chain>> answer;
-    std::vector<std::pair<size_t, size_t>> ties;
+    std::vector<TiedLink> ties;
     Causes* seen = nullptr;
     const auto answer_now = [&] {
         Walk walk(*seen);
@@ -95,8 +94,8 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
 }
 
 std::string format_link(const Link& link) {
-    std::string text =
-        fmt::format("{:>11} s  {}", fmt::format("{:.3f}", seconds_of(link.at)), link.what);
+    std::string text = fmt::format("{:>11} s  {}{}{}", fmt::format("{:.3f}", seconds_of(link.at)),
+                                   link.robot, link.robot.empty() ? "" : ": ", link.what);
     if (!link.value.empty()) text += " (" + link.value + ")";
     if (!link.place.empty()) text += "  " + link.place;
     return text;
@@ -114,6 +113,7 @@ std::string format_chain_json(const Chain& chain) {
         }
         if (!lost.empty()) lost = ",\"lost\":[" + lost + "]";
         if (link.guessed) lost += ",\"guessed\":true";
+        if (!link.robot.empty()) lost += ",\"robot\":" + json_quote(link.robot);
         text +=
             fmt::format(R"({}{{"t":{},"what":{},"place":{},"value":{},"root":{},"element":{}{}}})",
                         text.size() > 1 ? ",\n" : "\n", seconds_text(link.at),

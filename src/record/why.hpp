@@ -36,6 +36,7 @@ struct Link {
     std::vector<Loser> lost = {};  // to the event of that element, at the same instant
     bool guessed =
         false;  // of a real bus: no frame tells it, but a script has no other place for it
+    std::string robot = {};  // of robots with projects of their own: whose it is; empty: nobody's
     friend bool operator==(const Link&, const Link&) = default;
 };
 using Chain = std::vector<Link>;
@@ -43,20 +44,23 @@ using Chain = std::vector<Link>;
 struct Question {
     enum class About { Actor, Variable, Motor, Event, End };
     About about = About::End;
-    std::string name = {};
+    std::string name = {};   // of robots with projects of their own also "ROBOT/NAME"
+    std::string robot = {};  // of those: whose; empty: the only one that has it
 };
 
 // "actor NAME", "variable NODE.NAME" or "variable NAME", "motor ROBOT", "event NAME", "end".
 Result<Question> read_question(const std::vector<std::string>& words);
 
 // At the end of the recording, unless `at` says when. The Error says what is not there, and what
-// there is.
+// there is; or that several robots have it.
 Result<Chain> why(const mcap::Reader& reader, const Question& question, std::optional<Time> at);
 
 // What there was at a moment, after one instant and by another one: the actors that were active,
 // and then what happened: what scripts drew with math.rand, decisions of the plan, happenings in
-// the world, handlers that ran. The first kMomentMax of these.
-Result<Chain> moment(const mcap::Reader& reader, Time after, Time by);
+// the world, handlers that ran. The first kMomentMax of these. Of robots with projects of their
+// own: the actors of that one, and of each kind what happened with it before the others.
+Result<Chain> moment(const mcap::Reader& reader, Time after, Time by,
+                     const std::string& robot = "");
 
 // One line, and a JSON array.
 std::string format_link(const Link& link);

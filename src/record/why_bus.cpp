@@ -21,7 +21,7 @@ bool is_global(const aesl::CommonDefinitions& common, const std::string& event) 
 
 }  // namespace
 
-void Walk::frame_of_bus_node(uint32_t number, const Causes::Frame& frame) {
+void Walk::frame_of_bus_node(uint32_t number, const BusCauses::Frame& frame) {
     const PastBus& past = *rerun_.past_bus();
     const std::string node = past.name_of(frame.source);
     const std::string value = words_text(frame.arguments);
@@ -51,8 +51,8 @@ void Walk::frame_of_bus_node(uint32_t number, const Causes::Frame& frame) {
         add(std::move(before));
         return;
     }
-    const uint32_t heard = causes_.last_event_heard(section.name, number);
-    const Causes::Frame* const cause = causes_.frame(heard);
+    const uint32_t heard = bus_->last_event_heard(section.name, number);
+    const BusCauses::Frame* const cause = bus_->frame(heard);
     if (cause == nullptr) return;
     before.at = cause->at;
     before.what = fmt::format("{} probably heard {}", node, section.name);

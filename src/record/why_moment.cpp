@@ -15,25 +15,32 @@ constexpr std::string_view kDraw = "math.rand";
 
 }  // namespace
 
-Result<Chain> moment(const mcap::Reader& reader, Time after, Time by) {
+Result<Chain> moment(const mcap::Reader& reader, Time after, Time by, const std::string& robot) {
     const std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = by}));
     Causes causes(*rerun);
     std::optional<Chain> found;
     // At its instant, before the run is ended for it.
     rerun->each_instant([&](Time now) {
-        if (now >= by && !found) found = Walk(causes).moment(after, by);
+        if (now >= by && !found) found = Walk(causes).moment(after, by, robot);
     });
     NullTape tape;
     (void)TRY(rerun->run(tape));
-    return found ? std::move(*found) : Walk(causes).moment(after, by);
+    return found ? std::move(*found) : Walk(causes).moment(after, by, robot);
 }
 
-Chain Walk::moment(Time after, Time by) {
-    active_actors(after);
-    draws(after, by);
-    decisions(after, by);
+Chain Walk::moment(Time after, Time by, const std::string& robot) {
+    const size_t first = all_.bus_of(robot).value_or(0);
+    const auto each_bus = [&](const auto& tell) {
+        on_bus(first, tell);
+        for (size_t i = 0; i < all_.buses(); ++i) {
+            if (i != first) on_bus(i, tell);
+        }
+    };
+    on_bus(first, [&] { active_actors(after); });
+    each_bus([&] { draws(after, by); });
+    each_bus([&] { decisions(after, by); });
     happened(after, by);
-    handlers(after, by);
+    each_bus([&] { handlers(after, by); });
     if (chain_.size() > kMomentMax) chain_.resize(kMomentMax);
     return chain_;
 }
@@ -69,9 +76,9 @@ void Walk::active_actors(Time after) {
 
 // What scripts drew.
 void Walk::draws(Time after, Time by) {
-    for (uint32_t number = 1; const Causes::Call* const one = causes_.call(number); ++number) {
+    for (uint32_t number = 1; const BusCauses::Call* const one = bus_->call(number); ++number) {
         if (!is_within(one->deed.at, after, by)) continue;
-        const aesl::Target* const target = rerun_.session()->target(one->node.id);
+        const aesl::Target* const target = session()->target(one->node.id);
         const bool known = target != nullptr && one->native < target->natives.size();
         if (!known || target->natives[one->native].name != kDraw) continue;
         tell_alone([&] { call(number); });
@@ -85,14 +92,15 @@ void Walk::decisions(Time after, Time by) {
 }
 
 void Walk::happened(Time after, Time by) {
-    const auto& happenings = causes_.happenings();
+    const auto& happenings = all_.happenings().all();
     for (uint32_t i = 0; i < happenings.size(); ++i) {
         if (is_within(happenings[i].at, after, by)) tell_alone([&] { happening(i + 1); });
     }
 }
 
 void Walk::handlers(Time after, Time by) {
-    for (uint32_t number = 1; const Causes::HandlerRun* const one = causes_.run(number); ++number) {
+    for (uint32_t number = 1; const BusCauses::HandlerRun* const one = bus_->run(number);
+         ++number) {
         if (is_within(one->at, after, by)) tell_alone([&] { run(number); });
     }
 }

@@ -33,27 +33,29 @@ bool is_of_node(const session::SimSession& session, uint16_t id, std::string_vie
                                             [name](const auto& one) { return one.name == name; });
 }
 
-Error nothing_of(std::string_view kind, const std::string& name, std::vector<std::string> known) {
-    std::sort(known.begin(), known.end());
-    known.erase(std::unique(known.begin(), known.end()), known.end());
-    const std::string near = nearest(name, known);
-    const std::string hint =
-        !near.empty() ? "; did you mean " + near + "?"
-        : known.empty()
-            ? ""
-            : "; there is " + list_of(std::vector<std::string_view>(known.begin(), known.end()));
-    return {Code::NotFound, fmt::format("by then there was no {} \"{}\"{}", kind, name, hint)};
-}
-
 }  // namespace
 
+// Of several buses that were asked, what any of them has is known.
+Error Walk::nothing_of(std::string_view kind, const std::string& name) {
+    std::sort(known_.begin(), known_.end());
+    known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
+    const std::string near = nearest(name, known_);
+    const std::string hint =
+        !near.empty() ? "; did you mean " + near + "?"
+        : known_.empty()
+            ? ""
+            : "; there is " + list_of(std::vector<std::string_view>(known_.begin(), known_.end()));
+    const std::string whose = whose_.empty() ? "" : " of " + whose_;
+    return {Code::NotFound,
+            fmt::format("by then there was no {} \"{}\"{}{}", kind, name, whose, hint)};
+}
+
 Status Walk::actor(const std::string& name) {
-    std::vector<std::string> known;
     for (size_t i = lines().size(); i-- > 0;) {
         const auto* const started = what<plan::ActorStarted>(i);
         const auto* const ended = what<plan::ActorEnded>(i);
         const auto* const broken = what<plan::ActorInterrupted>(i);
-        if (started != nullptr) known.emplace_back(started->actor);
+        if (started != nullptr) known_.emplace_back(started->actor);
         if ((started != nullptr && started->actor == name) ||
             (ended != nullptr && ended->actor == name) ||
             (broken != nullptr && broken->actor == name)) {
@@ -61,14 +63,14 @@ Status Walk::actor(const std::string& name) {
             return Status::done();
         }
     }
-    return nothing_of("actor", name, std::move(known));
+    return nothing_of("actor", name);
 }
 
 // "drive.token", and in a world of several robots "r1/drive.token".
 std::optional<session::NodeState> Walk::node_of(const std::string& variable) const {
-    if (rerun_.session() == nullptr) return std::nullopt;
-    const auto& robots = rerun_.session()->world().definition().robots;
-    for (const session::NodeState& one : rerun_.session()->nodes()) {
+    if (session() == nullptr) return std::nullopt;
+    const auto& robots = session()->world().definition().robots;
+    for (const session::NodeState& one : session()->nodes()) {
         if (one.name.empty()) continue;
         const std::string& robot = robots[one.robot.number - 1].name;
         if (variable.starts_with(one.name + ".") ||
@@ -81,16 +83,15 @@ std::optional<session::NodeState> Walk::node_of(const std::string& variable) con
 
 Status Walk::variable(const std::string& name) {
     if (const auto node = node_of(name)) return variable_of_node(*node, name);
-    std::vector<std::string> known;
     for (size_t i = lines().size(); i-- > 0;) {
         const auto* const written = what<plan::VariableWritten>(i);
         if (written == nullptr) continue;
-        known.emplace_back(written->variable);
+        known_.emplace_back(written->variable);
         if (written->variable != name) continue;
         variable_written(i, *written);
         return Status::done();
     }
-    return nothing_of("variable", name, std::move(known));
+    return nothing_of("variable", name);
 }
 
 void Walk::variable_written(size_t index, const plan::VariableWritten& written) {
@@ -100,7 +101,7 @@ void Walk::variable_written(size_t index, const plan::VariableWritten& written) 
     if (written.by == kInitial || written.by == kChange) {
         const char* const from = written.by == kInitial ? "the plan" : "a new version of the plan";
         add({event.at, fmt::format("{} gave the variable {} its initial value", from, name),
-             places_.variable(event.plan, name), value});
+             places().variable(event.plan, name), value});
         return;
     }
     const size_t slash = event.plan.rfind('/');
@@ -113,7 +114,7 @@ void Walk::variable_written(size_t index, const plan::VariableWritten& written) 
         add({event.at,
              fmt::format("the actor {} gave the variable {} its value",
                          event.plan.substr(slash + 1), name),
-             places_.variable(event.plan, name), value});
+             places().variable(event.plan, name), value});
         return before_plan_began(index);
     }
     add_element(event.at, fmt::format("{} wrote the variable {}", written.by, name), event.plan,
@@ -142,12 +143,11 @@ Status Walk::variable_of_node(const session::NodeState& node, const std::string&
     const size_t begin = asked.find(node.name + ".", asked.find('/') + 1) + node.name.size() + 1;
     const std::string full = asked.substr(begin);
     const auto [name, element] = element_of(full);
-    const aesl::Program* const program = rerun_.session()->program(node.id);
+    const aesl::Program* const program = session()->program(node.id);
     const sim::WitnessedNode witnessed{node.robot.number, node.id};
-    std::vector<std::string> known;
     for (const aesl::VariablePlace& place :
          program != nullptr ? program->variables : kNoVariables) {
-        known.push_back(place.name);
+        known_.push_back(place.name);
         if (place.name != name) continue;
         if (element && *element >= place.size) {
             return Error{Code::BadInput,
@@ -155,30 +155,31 @@ Status Walk::variable_of_node(const session::NodeState& node, const std::string&
                                      node.name, place.size, full)};
         }
         const auto address = static_cast<uint16_t>(place.address + element.value_or(0));
-        const auto deed = causes_.last_write(witnessed, address, element ? 1 : place.size);
+        const auto deed = bus_->last_write(witnessed, address, element ? 1 : place.size);
         if (deed) {
             wrote(witnessed, *deed, full);
-        } else if (is_of_node(*rerun_.session(), node.id, name)) {
-            add({Time{},
-                 fmt::format("{} itself sets {}; no script has written it", node.name, full), "",
-                 ""});
+        } else if (is_of_node(*session(), node.id, name)) {
+            add_of(witnessed,
+                   {Time{},
+                    fmt::format("{} itself sets {}; no script has written it", node.name, full), "",
+                    ""});
         } else {
-            add({Time{}, fmt::format("no script has written {} of {} yet", full, node.name), "",
-                 ""});
+            add_of(witnessed,
+                   {Time{}, fmt::format("no script has written {} of {} yet", full, node.name), "",
+                    ""});
         }
         return Status::done();
     }
-    return nothing_of("variable of " + node.name, name, std::move(known));
+    return nothing_of("variable of " + node.name, name);
 }
 
 Status Walk::motor(const std::string& name) {
-    const session::SimSession* const session = rerun_.session();
-    std::vector<std::string> known;
-    if (session == nullptr) return nothing_of("robot", name, known);
+    const session::SimSession* const session = this->session();
+    if (session == nullptr) return nothing_of("robot", name);
     for (const sim::RobotView& robot : session->world().robots()) {
-        known.emplace_back(robot.name);
+        known_.emplace_back(robot.name);
         if (robot.name != name) continue;
-        std::optional<Causes::Deed> last;
+        std::optional<BusCauses::Deed> last;
         std::string variable;
         sim::WitnessedNode witnessed{robot.id.number, robot.node};
         if (const aesl::Program* const program = session->program(robot.node)) {
@@ -187,38 +188,40 @@ Status Walk::motor(const std::string& name) {
                     std::end(kMotors)) {
                     continue;
                 }
-                const auto deed = causes_.last_write(witnessed, place.address, place.size);
+                const auto deed = bus_->last_write(witnessed, place.address, place.size);
                 if (!deed || (last && deed->at < last->at)) continue;
                 last = deed;
                 variable = place.name;
             }
         }
-        const uint32_t called = causes_.last_call(robot.id.number, kDriving);
-        if (last && (called == 0 || causes_.call(called)->deed.at < last->at)) {
+        const uint32_t called = bus_->last_call(robot.id.number, kDriving);
+        if (last && (called == 0 || bus_->call(called)->deed.at < last->at)) {
             wrote(witnessed, *last, variable);
         } else if (called != 0) {
             call(called);
         } else {
-            add({Time{}, fmt::format("no script has told the wheels of {} to turn", name), "", ""});
+            add_of(
+                witnessed,
+                {Time{}, fmt::format("no script has told the wheels of {} to turn", name), "", ""});
         }
         return Status::done();
     }
-    return nothing_of("robot", name, std::move(known));
+    return nothing_of("robot", name);
 }
 
 Status Walk::event(const std::string& name) {
-    const uint32_t number = causes_.last_event(name);
+    const uint32_t number = bus_->last_event(name);
     if (number != 0) {
         frame(number);
         return Status::done();
     }
-    std::vector<std::string> known = causes_.events_seen();
-    if (rerun_.session() != nullptr) {
-        for (const aesl::GlobalEvent& one : rerun_.session()->common().events) {
-            known.push_back(one.name);
+    for (std::string& one : bus_->events_seen()) known_.push_back(std::move(one));
+    if (session() != nullptr) {
+        for (const aesl::GlobalEvent& one : session()->common().events) {
+            known_.push_back(one.name);
         }
     }
-    return nothing_of("event", name, std::move(known));
+    return nothing_of("event", name);
 }
 
 Status Walk::end() {

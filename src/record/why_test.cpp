@@ -6,6 +6,7 @@
 #include "base/test_folder.hpp"
 #include "base/test_places.hpp"
 #include "embed/robots_run.hpp"
+#include "record/past_run.hpp"
 #include "record/sim_recording.hpp"
 #include "record/why.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 // A Thymio that explores; what a person does comes after four seconds, and it goes on for one.
 std::string explored(const std::function<Status(sim::World&)>& act) {
@@ -70,6 +72,41 @@ TEST(Why, WhatLostIsOneSentence) {
     EXPECT_EQ(won_against({bell, bell, end}),
               "won against bell, which raised Timeout, bell, which raised Timeout, and the actor "
               "first, which ended with Done, all at the same instant");
+}
+
+// ---- a fleet ----
+
+TEST(Why, ALinkSaysWhoseItIs) {
+    EXPECT_EQ(format_link({.at = 6s + 420ms,
+                           .what = "the fleet brought alarm from t15",
+                           .place = "",
+                           .value = "7",
+                           .robot = "t11"}),
+              "      6.420 s  t11: the fleet brought alarm from t15 (7)");
+    EXPECT_EQ(format_chain_json({{.at = 1s, .what = "w", .place = "", .value = "", .robot = "r"}}),
+              "[\n{\"t\":1.000000,\"what\":\"w\",\"place\":\"\",\"value\":\"\",\"root\":false,"
+              "\"element\":\"\",\"robot\":\"r\"}\n]\n");
+}
+
+// The studio runs one bus and one plan.
+TEST(PastRun, OfAFleetIsRefusedWithWhatCanBeDone) {
+    const test::Folder folder;
+    const std::string file = (folder / "run.mcap").string();
+    RunFile about;
+    about.verb = "sim";
+    about.world = test::examples("alarm/class.world.json");
+    FilesRead files;
+    auto robots = embed::RobotsRun::open({.world = about.world});
+    ASSERT_TRUE(robots.ok());
+    auto recording = SimRecording::begin(file, about, files, *robots.value(), Pace::Waits);
+    ASSERT_TRUE(recording.ok());
+    ASSERT_TRUE(robots.value()->start().ok());
+    robots.value()->step(10ms);
+    ASSERT_TRUE(recording.value()->end().ok());
+    const auto past = read_past(file, std::nullopt);
+    ASSERT_FALSE(past.ok());
+    EXPECT_THAT(past.error().what, HasSubstr("is of a world in which 30 robots have projects of "
+                                             "their own, which the studio does not run"));
 }
 
 }  // namespace

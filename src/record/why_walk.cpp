@@ -47,23 +47,28 @@ std::string value_text(const plan::Value& value) {
     return "an object";
 }
 
+std::string Walk::robot_of(uint32_t number) const {
+    if (!all_.is_fleet() || number == 0) return "";
+    return session()->world().definition().robots[number - 1].name;
+}
+
 std::string Walk::node_name(const sim::WitnessedNode& node) const {
-    for (const session::NodeState& one : rerun_.session()->nodes()) {
+    for (const session::NodeState& one : session()->nodes()) {
         if (one.id == node.id && one.robot.number == node.robot) return one.name;
     }
     return "node " + std::to_string(node.id);
 }
 
 std::string Walk::place_of(const sim::WitnessedNode& node, uint16_t pc) const {
-    const aesl::Program* const program = rerun_.session()->program(node.id);
+    const aesl::Program* const program = session()->program(node.id);
     if (program == nullptr || pc >= program->lines.size()) return "";
-    const auto place = rerun_.session()->place_of(node.id, program->lines[pc]);
+    const auto place = session()->place_of(node.id, program->lines[pc]);
     if (!place) return "";
     return fmt::format("{}:{}", rerun_.name_of(place->first), place->second);
 }
 
 std::string Walk::local_name(const sim::WitnessedNode& node, int event) const {
-    const aesl::Target* const target = rerun_.session()->target(node.id);
+    const aesl::Target* const target = session()->target(node.id);
     const auto index = static_cast<size_t>(event);
     return target != nullptr && index < target->local_events.size()
                ? target->local_events[index].name
@@ -71,7 +76,7 @@ std::string Walk::local_name(const sim::WitnessedNode& node, int event) const {
 }
 
 std::string Walk::local_help(const sim::WitnessedNode& node, int event) const {
-    const aesl::Target* const target = rerun_.session()->target(node.id);
+    const aesl::Target* const target = session()->target(node.id);
     const auto index = static_cast<size_t>(event);
     return target != nullptr && index < target->local_events.size()
                ? target->local_events[index].doc
@@ -81,18 +86,22 @@ std::string Walk::local_help(const sim::WitnessedNode& node, int event) const {
 // ---- frames, handlers, the world ----
 
 void Walk::frame(uint32_t number) {
-    const Causes::Frame* const one = causes_.frame(number);
+    if (const BusCauses::Message* const brought = bus_->message(number)) return message(*brought);
+    if (const BusCauses::News* const told = bus_->news(number)) return news(*told);
+    const BusCauses::Frame* const one = bus_->frame(number);
     if (one == nullptr) return;
     if (one->of_bus) return frame_of_bus_node(number, *one);
     if (one->node.robot == 0) return frame_of_plan(*one);
-    const bool more = add({one->at,
+    const bool more =
+        add_of(one->node, {one->at,
                            fmt::format("the script of {} emitted {}", node_name(one->node),
                                        one->event.empty() ? "a message" : one->event),
                            place_of(one->node, one->deed.pc), words_text(one->arguments)});
     if (more) run(one->deed.run);
 }
 
-void Walk::frame_of_plan(const Causes::Frame& frame) {
+void Walk::frame_of_plan(const BusCauses::Frame& frame) {
+    if (frame.by.empty() && bus_->message(frame.cause) != nullptr) return this->frame(frame.cause);
     if (frame.by.empty()) {
         const char* const who = rerun_.about().verb == kStudioVerb ? "the studio" : "a host";
         add({frame.at, fmt::format("{} sent {}", who, frame.event), "",
@@ -118,17 +127,17 @@ void Walk::frame_of_plan(const Causes::Frame& frame) {
                lines()[*start].event.plan.starts_with(lines()[i].event.plan + "/");
     });
     if (stop) return line(*stop);
-    const Causes::Frame* const heard = causes_.frame(frame.cause);
-    if (heard != nullptr && heard->at >= lines()[*start].event.at) return this->frame(frame.cause);
+    const std::optional<Time> heard = bus_->heard_at(frame.cause);
+    if (heard && *heard >= lines()[*start].event.at) return this->frame(frame.cause);
     line(*start);
 }
 
 // It sends when its watching begins and ends, which follows from what the plan decided last; or
 // when it has heard something.
-void Walk::frame_of_supervisor(const Causes::Frame& frame) {
+void Walk::frame_of_supervisor(const BusCauses::Frame& frame) {
     const auto its = last_line(std::min(frame.line, lines().size()), [&](size_t i) {
         return (leads_on(i) || what<plan::PlanStarted>(i) != nullptr) &&
-               !places_.element(lines()[i].event.plan, frame.by).empty();
+               !places().element(lines()[i].event.plan, frame.by).empty();
     });
     if (!add_element(frame.at,
                      fmt::format("the supervisor {} of the plan sent {}", frame.by, frame.event),
@@ -141,18 +150,18 @@ void Walk::frame_of_supervisor(const Causes::Frame& frame) {
 }
 
 void Walk::run(uint32_t number) {
-    const Causes::HandlerRun* const one = causes_.run(number);
+    const BusCauses::HandlerRun* const one = bus_->run(number);
     if (one == nullptr) return;
     if (one->event >= 0) return local_event(*one);
-    const Causes::Frame* const by = causes_.frame(one->frame);
+    const BusCauses::Frame* const by = bus_->frame(one->frame);
     const std::string event = by != nullptr ? by->event : "an event of a host";
-    const bool more =
-        add({one->at, fmt::format("{} heard {}", node_name(one->node), event),
-             place_of(one->node, one->pc), by != nullptr ? words_text(by->arguments) : ""});
+    const bool more = add_of(
+        one->node, {one->at, fmt::format("{} heard {}", node_name(one->node), event),
+                    place_of(one->node, one->pc), by != nullptr ? words_text(by->arguments) : ""});
     if (more) frame(one->frame);
 }
 
-void Walk::local_event(const Causes::HandlerRun& run) {
+void Walk::local_event(const BusCauses::HandlerRun& run) {
     const std::string event = local_name(run.node, run.event);
     const std::string node = node_name(run.node);
     const std::string place = place_of(run.node, run.pc);
@@ -160,42 +169,53 @@ void Walk::local_event(const Causes::HandlerRun& run) {
                                              : fmt::format("{} felt {}", node, event);
     const std::string about = local_help(run.node, run.event);
     if (!kDone.contains(event) || run.call == 0) {
-        if (add({run.at, felt, place, about})) happening(run.happening);
+        if (add_of(run.node, {run.at, felt, place, about})) happening(run.happening);
         return;
     }
-    if (add({run.at, fmt::format("{} felt {}", node, event), place, about})) {
+    if (add_of(run.node, {run.at, fmt::format("{} felt {}", node, event), place, about})) {
         call(run.call);
     }
 }
 
 void Walk::call(uint32_t number) {
-    const Causes::Call* const one = causes_.call(number);
+    const BusCauses::Call* const one = bus_->call(number);
     if (one == nullptr) return;
-    const aesl::Target* const target = rerun_.session()->target(one->node.id);
+    const aesl::Target* const target = session()->target(one->node.id);
     const std::string native = target->natives[one->native].name;
     const bool more =
-        add({one->deed.at, fmt::format("the script of {} called {}", node_name(one->node), native),
-             place_of(one->node, one->deed.pc), ""});
+        add_of(one->node, {one->deed.at,
+                           fmt::format("the script of {} called {}", node_name(one->node), native),
+                           place_of(one->node, one->deed.pc), ""});
     if (more) run(one->deed.run);
 }
 
 void Walk::happening(uint32_t number) {
-    if (number == 0) return;
-    const Causes::Happening& one = causes_.happenings()[number - 1];
+    const Happening* const one = all_.happenings().find(number);
+    if (one == nullptr || chain_.size() >= kLinksMax) return;
     std::string place;
-    if (one.kind == Causes::Happening::Kind::Timeline) place = places_.timeline(one.entry);
-    if (add({one.at, one.what, place, ""})) happening(one.before);
+    if (one->kind == Happening::Kind::Timeline) place = places().timeline(one->entry);
+    // The timeline is nobody's.
+    const bool of_robot = one->kind != Happening::Kind::Timeline;
+    chain_.push_back({.at = one->at,
+                      .what = one->what,
+                      .place = place,
+                      .value = "",
+                      .robot = of_robot ? robot_of(one->robot) : ""});
+    happening(one->before);
 }
 
 // What was broken when it happened, or shortly before. Nothing tells that it follows from that.
 void Walk::chaos() {
     constexpr Duration kFeltFor = std::chrono::seconds(4);  // a node is missed after three
-    const auto& happenings = causes_.happenings();
+    const auto& happenings = all_.happenings().all();
     for (size_t i = happenings.size(); i-- > 0 && !chain_.empty();) {
-        const Causes::Happening& one = happenings[i];
+        const Happening& one = happenings[i];
         const Time at = chain_.front().at;
-        if (one.kind != Causes::Happening::Kind::Chaos || one.at > at) continue;
-        const auto end = sim::end_of(rerun_.session()->world().chaos()[one.entry]);
+        if (one.kind != Happening::Kind::Chaos || one.at > at) continue;
+        const std::string robot = robot_of(one.robot);
+        const auto is_of = [&robot](const Link& link) { return link.robot == robot; };
+        if (!robot.empty() && std::ranges::none_of(chain_, is_of)) continue;
+        const auto end = sim::end_of(session()->world().chaos()[one.entry]);
         if (end && *end + kFeltFor < at) continue;
         add({one.at, "perhaps " + one.what, "", ""});
         return;
@@ -232,13 +252,13 @@ void Walk::line(size_t index) {
     } else if (const auto* one = what<plan::EventRaised>(index)) {
         raised(index, *one);
     } else if (std::holds_alternative<plan::PlanStarted>(event.what)) {
-        if (add({event.at, fmt::format("the plan {} began", event.plan), places_.plan(event.plan),
+        if (add({event.at, fmt::format("the plan {} began", event.plan), places().plan(event.plan),
                  ""})) {
             before_plan_began(index);
         }
     } else if (const auto* over = what<plan::PlanEnded>(index)) {
         if (add({event.at, fmt::format("the plan {} ended: {}", event.plan, name_of(over->result)),
-                 places_.plan(event.plan), over->message})) {
+                 places().plan(event.plan), over->message})) {
             before_plan_ended(index, *over);
         }
     }
@@ -251,12 +271,12 @@ void Walk::raised(size_t index, const plan::EventRaised& raised) {
                      event.plan, raised.supervisor)) {
         return;
     }
-    if (causes_.by_hand(index)) {
+    if (bus_->by_hand(index)) {
         add({event.at, "a person raised it in the debugger of the plan", "", ""});
         return;
     }
     const bool told = raised.target != kIgnore && rerun_.past_bus() == nullptr;
-    if (causes_.tied(index) && told) ties_.emplace_back(chain_.size() - 1, index);
+    if (bus_->tied(index) && told) ties_.push_back({chain_.size() - 1, index_, index});
     if (event.frame != 0) frame(event.frame);
 }
 
@@ -286,8 +306,8 @@ void Walk::before_ended(size_t index, const plan::ActorEnded& ended) {
         return what<plan::PlanEnded>(i) != nullptr && lines()[i].event.plan == inner;
     });
     if (inner_end && begin && *inner_end > *begin) return line(*inner_end);
-    const Causes::Frame* const heard = causes_.frame(event.frame);
-    if (heard != nullptr && begin && heard->at >= lines()[*begin].event.at) {
+    const std::optional<Time> heard = bus_->heard_at(event.frame);
+    if (heard && begin && *heard >= lines()[*begin].event.at) {
         return frame(event.frame);
     }
     if (begin) line(*begin);
@@ -364,6 +384,7 @@ void Walk::failed(size_t index, const plan::ErrorFound& error) {
 }
 
 void Walk::ended_from_outside(Time at) {
+    if (bus_->stopped() && bus_->stopped()->first <= at) return happening(bus_->stopped()->second);
     if (rerun_.ended_by()) {
         add({at, "somebody ended the run", "", *rerun_.ended_by()});
     } else if (!rerun_.about().max_time.empty()) {
@@ -375,17 +396,18 @@ void Walk::ended_from_outside(Time at) {
 
 // ---- what scripts and hosts write ----
 
-void Walk::wrote(const sim::WitnessedNode& node, const Causes::Deed& deed,
+void Walk::wrote(const sim::WitnessedNode& node, const BusCauses::Deed& deed,
                  const std::string& name) {
     const std::string value = std::to_string(deed.value);
     if (deed.host) {
-        add({deed.at, fmt::format("a host set {} of {}", name, node_name(node)), "", value});
+        add_of(node,
+               {deed.at, fmt::format("a host set {} of {}", name, node_name(node)), "", value});
         return;
     }
-    add({deed.at, fmt::format("the script of {} wrote {}", node_name(node), name),
-         place_of(node, deed.pc), value});
+    add_of(node, {deed.at, fmt::format("the script of {} wrote {}", node_name(node), name),
+                  place_of(node, deed.pc), value});
     if (deed.run != 0) return run(deed.run);
-    add({deed.at, fmt::format("the script of {} began", node_name(node)), "", ""});
+    add_of(node, {deed.at, fmt::format("the script of {} began", node_name(node)), "", ""});
 }
 
 }  // namespace vagus::record

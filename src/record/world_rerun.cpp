@@ -41,6 +41,33 @@ public:
     }
 
     Result<Ended> run(Tape& tape) override {
+        Result<Ended> ended = run_to_its_end(tape);
+        watch_robots(nullptr);  // plans that go with the run are nobody's
+        return ended;
+    }
+
+    void listen(std::function<void(const plan::TraceEvent&)>) override {}
+    void watch_robots(embed::RobotsWatcher* watcher) override {
+        if (robots_) robots_->watch(watcher);
+    }
+    session::SimSession* session() override {
+        return own_ ? own_.get() : &robots_->buses().common();
+    }
+    session::PlanWorld* plan_world() override { return nullptr; }
+    const embed::LoadedPlan* plan() const override { return nullptr; }
+    std::vector<RunBus> buses() override {
+        std::vector<RunBus> all = Rerun::buses();
+        if (!robots_) return all;
+        const auto& robots = robots_->buses().robots();
+        for (size_t i = 0; i < robots.size(); ++i) {
+            all.push_back({robots[i].session.get(), robots_->plan(i), robots[i].name,
+                           robots[i].id.number, robots[i].project.fleet.name});
+        }
+        return all;
+    }
+
+private:
+    Result<Ended> run_to_its_end(Tape& tape) {
         Recorder recorder(tape, format_run(about_));
         recorder_ = &recorder;
         recorder.follow(*session());
@@ -68,18 +95,17 @@ public:
         return Ended{session()->now(), "", ""};
     }
 
-    void listen(std::function<void(const plan::TraceEvent&)>) override {}
-    session::SimSession* session() override {
-        return own_ ? own_.get() : &robots_->buses().common();
-    }
-    session::PlanWorld* plan_world() override { return nullptr; }
-    const embed::LoadedPlan* plan() const override { return nullptr; }
-
-private:
     InputWhat end_of_run() const override { return RecordingEnds{}; }
     // Where robots have projects an instant is over when all their buses have had it.
     bool comes_between_instants() const override {
         return is_of_studio() || !about_.robots.empty();
+    }
+
+    using Rerun::change;
+    Status change(const Reseeded& drawn, Only only) override {
+        if (!robots_) return Rerun::change(drawn, only);
+        if (only == Only::Do) robots_->reseed(drawn.seed);
+        return Status::done();
     }
 
     std::string check_of_robots(Time at) const override {

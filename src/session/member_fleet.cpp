@@ -13,6 +13,13 @@ std::vector<fleet::Filter> MemberFleet::filters() const {
     return filters;
 }
 
+uint64_t MemberFleet::ask(keeper::Request request) {
+    const keeper::Request asked = request;
+    const uint64_t number = client_.ask(std::move(request), now_);
+    if (told_of_question_ && number != 0) told_of_question_(number, asked);
+    return number;
+}
+
 void MemberFleet::hear(const fleet::LinkEvent& event, Time now) {
     now_ = now;
     client_.hear(event, now);
@@ -24,8 +31,9 @@ void MemberFleet::hear(const fleet::LinkEvent& event, Time now) {
     if (received == nullptr) return;
     const fleet::Heard& heard = received->heard;
     if (const auto* connection = std::get_if<fleet::Connection>(&heard.message)) {
-        online_[heard.topic.robot] = connection->state == "online";
-        news_ = true;
+        const bool online = connection->state == "online";
+        online_[heard.topic.robot] = online;
+        is_new(RobotOnline{heard.topic.robot, online});
     } else if (const auto* record = std::get_if<keeper::Record>(&heard.message)) {
         const auto* const value = std::get_if<keeper::Shared>(record);
         if (value == nullptr) return;
@@ -33,7 +41,7 @@ void MemberFleet::hear(const fleet::LinkEvent& event, Time now) {
         // One that comes again, late, is none that is new.
         if (value->version < known.version) return;
         known = *value;
-        news_ = true;
+        is_new(*value);
     }
 }
 
@@ -41,7 +49,7 @@ void MemberFleet::tick(Time now) {
     now_ = now;
     client_.tick(now);
     for (keeper::Over& over : client_.leases().take_over()) {
-        news_ = true;
+        is_new(over);
         const auto* const value = over.reply && over.reply->record
                                       ? std::get_if<keeper::Shared>(&*over.reply->record)
                                       : nullptr;

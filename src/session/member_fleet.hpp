@@ -9,6 +9,7 @@
 //     if (fleet.take_news()) wake(plan);                     // kFleetNews
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "fleet/keeper_client.hpp"
 #include "fleet/link.hpp"
+#include "session/fleet_news.hpp"
 #include "toolbox/fleet/fleet.hpp"
 
 namespace vagus::session {
@@ -32,6 +34,10 @@ public:
     void tick(Time now);
     std::vector<fleet::Post> take() { return client_.take(); }
     bool take_news() { return std::exchange(news_, false); }
+    // From now on take_what_is_new() tells what the news are, and each question is told.
+    using Asked = std::function<void(uint64_t number, const keeper::Request& request)>;
+    void tell_more(Asked asked) { told_of_question_ = std::move(asked); }
+    std::vector<FleetNews> take_what_is_new() { return std::exchange(new_, {}); }
     // Values that tell() was given, for the member.
     struct Told {
         std::string name;
@@ -40,7 +46,7 @@ public:
     std::vector<Told> take_told() { return std::exchange(told_, {}); }
 
     // ---- toolbox::Fleet ----
-    uint64_t ask(keeper::Request request) override { return client_.ask(std::move(request), now_); }
+    uint64_t ask(keeper::Request request) override;
     std::optional<keeper::Over> answer(uint64_t number) override;
     void cancel(uint64_t number) override { client_.leases().cancel(number); }
     bool holds(keeper::Term term) const override { return client_.leases().holds(term, now_); }
@@ -50,11 +56,18 @@ public:
     void tell(const std::string& name, std::vector<int16_t> values) override;
 
 private:
+    void is_new(FleetNews what) {
+        news_ = true;
+        if (told_of_question_) new_.push_back(std::move(what));
+    }
+
     const std::string fleet_;
     const std::string me_;
     fleet::KeeperClient client_;
     Time now_{};
     bool news_ = false;
+    Asked told_of_question_;
+    std::vector<FleetNews> new_;
     std::map<uint64_t, keeper::Over> over_;
     std::map<std::string, keeper::Shared> shared_;
     std::map<std::string, bool> online_;

@@ -204,14 +204,14 @@ void SimSession::number_own(const wire::Frame& frame) {
         emit_causes_.pop_front();
     }
     if (numbers == nullptr) return;
-    const uint32_t number = numbers->sent(frame, cause);
+    const uint32_t number = numbers->sent(on_bus(frame), cause);
     for (const FrameListener& told : told_of_frame_) told(frame, number);
 }
 
 void SimSession::number_heard(const wire::Frame& frame) {
     sim::FrameNumbers* const numbers = world_->frame_numbers();
     if (numbers == nullptr) return;
-    const uint32_t number = numbers->find(frame, last_frame_);
+    const uint32_t number = numbers->find(on_bus(frame), last_frame_);
     if (number != 0) last_frame_ = number;
     if (wire::is_user_event(frame.type)) event_frames_.push_back(number);
     for (const FrameListener& told : told_of_frame_) told(frame, number);

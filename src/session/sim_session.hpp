@@ -205,6 +205,10 @@ public:
     // ---- looking ----
     const sim::World& world() const { return *world_; }
     sim::World& world() { return *world_; }
+    // A frame of it, as frame_numbers.hpp counts buses.
+    sim::FrameOnBus on_bus(const wire::Frame& frame) const {
+        return {frame, robot_ ? robot_->number : 0};
+    }
     // The bus of this session.
     hub::Hub& bus() { return robot_ ? world_->bus_of(*robot_) : world_->bus(); }
     // All nodes of all robots: in the order of the robots, and of the nodes of each.

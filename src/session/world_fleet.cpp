@@ -77,9 +77,19 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
     return Status::done();
 }
 
-void WorldFleet::emitted(sim::RobotId robot, const std::string& event,
-                         const std::vector<int16_t>& args, Time now) {
-    if (Robot* const one = by_id_[robot.number - 1]) one->member.emitted(event, args, now);
+void WorldFleet::emitted(sim::RobotId robot, const Emission& event, Time now) {
+    Robot* const one = by_id_[robot.number - 1];
+    if (one == nullptr) return;
+    const int64_t number = one->member.emitted(event.name, event.arguments, now);
+    if (number != 0 && event.frame != 0) one->sent.add(number, event.frame);
+}
+
+// At a real broker a robot of that name may be any.
+uint32_t WorldFleet::frame_of(const fleet::EmitOnBus& event) const {
+    if (door_) return 0;
+    const auto by = std::ranges::find(
+        robots_, event.from, [](const auto& one) -> const auto& { return one->name; });
+    return by == robots_.end() ? 0 : (*by)->sent.frame_of(event.number);
 }
 
 toolbox::Fleet* WorldFleet::asked_by(sim::RobotId robot) {
@@ -97,6 +107,7 @@ void WorldFleet::pass(Time now) {
 void WorldFleet::let_ask(Robot& robot, const fleet::MemberOptions& options) {
     robot.asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
         .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
+    if (watched_) robot.asks->tell_more(robot.ears.asked);
     robot.asks_way = &broker_.add(options.fleet, {});
     broker_.connect(*robot.asks_way);
     add_keeper(options.fleet);
@@ -142,8 +153,21 @@ void WorldFleet::turn(Keeper& keeper, Time now) {
         if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
             keeper.way->subscribe(filters->filters);
         } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
+            if (watched_) tell_reply(keeper, *post);
             keeper.way->publish(*post);
         }
+    }
+}
+
+// To the robot that it is for, at once: for that one itself it is on its way.
+void WorldFleet::tell_reply(const Keeper& keeper, const fleet::Post& post) const {
+    const auto heard = fleet::read(keeper.fleet, post.topic, post.payload);
+    const auto* const reply =
+        heard.ok() ? std::get_if<fleet::Reply>(&heard.value().message) : nullptr;
+    if (reply == nullptr) return;
+    for (const auto& robot : robots_) {
+        if (robot->name != heard.value().topic.robot || !robot->ears.replied) continue;
+        robot->ears.replied(reply->number, reply->reply);
     }
 }
 
@@ -164,7 +188,8 @@ void WorldFleet::ask(Robot& robot, Time now) {
     for (MemberFleet::Told& told : asks.take_told()) {
         robot.member.changed("plan", told.name, std::move(told.values));
     }
-    if (asks.take_news() && robot.ears.news) robot.ears.news();
+    const std::vector<FleetNews> what = asks.take_what_is_new();
+    if (asks.take_news() && robot.ears.news) robot.ears.news(what);
 }
 
 void WorldFleet::run_timeline(Time now) {
@@ -233,7 +258,7 @@ void WorldFleet::perform(Robot& robot) {
         } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
             robot.way().publish(*post);
         } else if (const auto* event = std::get_if<fleet::EmitOnBus>(&action)) {
-            robot.ears.hear(*event);
+            robot.ears.hear(*event, frame_of(*event));
         } else if (const auto* stop = std::get_if<fleet::StopAlone>(&action)) {
             robot.ears.stop(stop->why);
         } else if (const auto* said = std::get_if<fleet::Say>(&action)) {

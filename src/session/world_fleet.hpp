@@ -4,7 +4,7 @@
 //
 //     WorldFleet fleet(world.definition(), seed);
 //     TRY(fleet.join(robot, ears));                      // a RobotBus whose project names a fleet
-//     fleet.emitted(robot.id, "alarm", {}, now);          // a node of that robot said it
+//     fleet.emitted(robot.id, event, now);                // a node of that robot said it
 //     fleet.pass(now);                                    // calls the ears
 #pragma once
 
@@ -21,6 +21,7 @@
 #include "fleet/member.hpp"
 #include "fleet/modelled_broker.hpp"
 #include "session/member_fleet.hpp"
+#include "session/sent_to_fleet.hpp"
 #include "session/world_buses.hpp"
 #include "sim/world.hpp"
 
@@ -32,11 +33,15 @@ class WorldFleet {
 public:
     // What a robot does for the fleet. Called within pass().
     struct Ears {
-        std::function<void(const fleet::EmitOnBus&)> hear;
+        // `frame`: of the sender's bus, by its number; 0: not known.
+        std::function<void(const fleet::EmitOnBus&, uint32_t frame)> hear;
         std::function<void(const std::string& why)> stop;
         std::function<void(const std::string& text)> say;
-        // There is something new for templates that ask the fleet.
-        std::function<void()> news = {};
+        // There is something new for templates that ask the fleet: what, with watch().
+        std::function<void(const std::vector<FleetNews>&)> news = {};
+        // With watch(): its plan asks the keeper, and the keeper has decided.
+        MemberFleet::Asked asked = {};
+        std::function<void(uint64_t number, const keeper::Reply& reply)> replied = {};
         // Of members at a real broker: what is shown of the robot, the values of a variable (empty:
         // there is none), a command. Nothing: it is answered when all nodes are at rest.
         std::function<fleet::Shown()> shown = {};
@@ -62,11 +67,19 @@ public:
     // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
     // With `asks`, its plan asks the fleet: asked_by().
     Status join(const RobotBus& robot, Ears ears, bool asks = false);
-    void emitted(sim::RobotId robot, const std::string& event, const std::vector<int16_t>& args,
-                 Time now);
+    struct Emission {
+        std::string name;
+        std::vector<int16_t> arguments;
+        uint32_t frame = 0;  // its number, where frames have one
+    };
+    void emitted(sim::RobotId robot, const Emission& event, Time now);
     // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker, or was not
     // to ask.
     toolbox::Fleet* asked_by(sim::RobotId robot);
+    // Before join(): ears are told more, for one who asks why.
+    void watch() { watched_ = true; }
+    // From now on the chance of the ways is drawn from that seed.
+    void reseed(uint64_t seed) { broker_.reseed(seed); }
     // What is due by `now`, at each instant: the broker, then the timeline, then the members in the
     // order in which they joined.
     void pass(Time now);
@@ -79,6 +92,7 @@ private:
         std::string name = {};
         Ears ears = {};
         std::vector<fleet::Tells> tell = {};
+        SentToFleet sent = {};
         Time show_at = {};
         std::vector<fleet::Command> stopping = {};  // to be answered at rest
         std::unique_ptr<MemberFleet> asks = {};     // with a way of its own
@@ -101,11 +115,13 @@ private:
     void add_keeper(const std::string& fleet);
     void start(Keeper& keeper);
     void turn(Keeper& keeper, Time now);
+    void tell_reply(const Keeper& keeper, const fleet::Post& post) const;
     static void ask(Robot& robot, Time now);
     void turn(Robot& robot, Time now);
     void show(Robot& robot, Time now);
     void obey(Robot& robot, const fleet::Command& command);
     void perform(Robot& robot);
+    uint32_t frame_of(const fleet::EmitOnBus& event) const;
 
     const sim::WorldDefinition& world_;
     fleet::ModelledBroker broker_;
@@ -113,6 +129,7 @@ private:
     std::vector<std::unique_ptr<Robot>> robots_;
     std::vector<Keeper> keepers_;  // in the order in which their fleets were named
     uint64_t keepers_started_ = 0;
+    bool watched_ = false;
     std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
     size_t timeline_next_ = 0;
 };

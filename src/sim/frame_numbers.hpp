@@ -3,10 +3,13 @@
 // by its bytes, the oldest first that he has not taken yet: senders are heard in their order.
 //
 //     FrameNumbers numbers;
-//     const uint32_t number = numbers.sent(frame, cause);         // from 1 on
+//     const uint32_t number = numbers.sent({frame, bus}, cause);  // from 1 on
 //     uint32_t last = 0;                                          // the receiver's
-//     const uint32_t same = numbers.find(frame, last);            // 0: not one of these
+//     const uint32_t same = numbers.find({frame, bus}, last);     // 0: not one of these
 //     const uint32_t why = numbers.cause_of(same);                // 0: no frame
+//
+// Several buses count together, so that a number says which frame of which bus it is; each frame is
+// found on its own bus alone.
 //
 // Of equal frames of which a bus has dropped one, the numbers may be those of their neighbours.
 #pragma once
@@ -22,16 +25,27 @@ namespace vagus::sim {
 
 constexpr size_t kFramesOnTheirWay = 65536;  // older ones are not found any more
 
+// A frame on one of the buses of a world: 0 is the common one, else that of the robot with this
+// number.
+struct FrameOnBus {
+    const wire::Frame& frame;
+    uint32_t bus = 0;
+};
+
 class FrameNumbers {
 public:
     // From one thread at a time.
-    uint32_t sent(const wire::Frame& frame, uint32_t cause);
+    uint32_t sent(const FrameOnBus& one, uint32_t cause);
+    // The number of something that is no frame, and that frames follow from: what came over a
+    // fleet.
+    uint32_t other(uint32_t cause);
     // From several threads, while nobody sends.
-    uint32_t find(const wire::Frame& frame, uint32_t after) const;
+    uint32_t find(const FrameOnBus& one, uint32_t after) const;
     uint32_t cause_of(uint32_t number) const;
 
 private:
-    static uint64_t key_of(const wire::Frame& frame);
+    static uint64_t key_of(const FrameOnBus& one);
+    uint32_t add(uint64_t key, uint32_t cause);
     void forget();
 
     std::unordered_map<uint64_t, std::vector<uint32_t>> of_bytes_;

@@ -227,7 +227,7 @@ void NodeTurns::deliver(size_t index) {
 void NodeTurns::receive(Berth& berth, const wire::Frame& frame) {
     uint32_t number = 0;
     if (numbers_) {
-        number = numbers_->find(frame, berth.last_frame);
+        number = numbers_->find({frame, bus_number_of(berth)}, berth.last_frame);
         if (number != 0) berth.last_frame = number;
     }
     machine(berth).receive(frame, number);
@@ -253,7 +253,8 @@ void NodeTurns::collect(size_t index, Time now, Crossing crossing) {
     for (size_t i = 0; i < node.sent().size(); ++i) {
         const wire::Frame& frame = node.sent()[i];
         if (numbers_) {
-            const uint32_t number = numbers_->sent(frame, node.origins()[i]);
+            const uint32_t number =
+                numbers_->sent({frame, bus_number_of(berth)}, node.origins()[i]);
             if (witness_ != nullptr) {
                 witness_->sent({static_cast<uint32_t>(berth.robot + 1), node.id()}, number);
             }

@@ -125,6 +125,10 @@ private:
 
     Robot& robot(size_t index) { return *inhabitants_->robots()[index]; }
     Machine& machine(const Berth& berth) { return *robot(berth.robot).machines()[berth.place]; }
+    // As FrameOnBus counts them.
+    static uint32_t bus_number_of(const Berth& berth) {
+        return berth.bus == 0 ? 0 : static_cast<uint32_t>(berth.robot + 1);
+    }
     size_t bus_index_of(size_t robot) const { return berths_[first_berth(robot)].bus; }
     size_t first_berth(size_t robot) const { return units_[unit_of_[robot]].first; }
     static std::optional<BusLoad> load(const Bus& bus);

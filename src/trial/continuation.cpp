@@ -6,7 +6,9 @@
 #include <charconv>
 
 #include "base/json.hpp"
+#include "base/nearest.hpp"
 #include "embed/loaded_plan.hpp"
+#include "embed/robots_watcher.hpp"
 #include "record/causes.hpp"
 #include "record/file_tape.hpp"
 #include "session/plan_world.hpp"
@@ -24,7 +26,6 @@ Error at_condition(std::string_view condition, const Error& error) {
 }
 
 Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
-    TRY(record::check_one_bus(rerun.about(), reader.name(), "--turning-point"));
     if (rerun.about().is_of_bus()) {
         return cannot(reader,
                       "is of a real bus, whose nodes cannot be continued from an instant; record a "
@@ -43,11 +44,26 @@ Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
     return Status::done();
 }
 
+// Of the plan on that bus.
+class LinesOfRobot final : public embed::RobotsWatcher {
+public:
+    LinesOfRobot(size_t bus, std::function<void(const plan::TraceEvent&)> told)
+        : bus_(bus), told_(std::move(told)) {}
+    void line(size_t robot, const plan::TraceEvent& event) override {
+        if (robot + 1 == bus_) told_(event);
+    }
+
+private:
+    size_t bus_;
+    std::function<void(const plan::TraceEvent&)> told_;
+};
+
 }  // namespace
 
 Result<std::unique_ptr<Continued>> Continued::open(const mcap::Reader& reader,
                                                    std::string_view condition,
-                                                   std::optional<Time> until) {
+                                                   std::optional<Time> until,
+                                                   const std::string& robot) {
     Result<Condition> parsed = Condition::parse(condition);
     if (!parsed.ok()) return at_condition(condition, parsed.error());
     auto rerun = TRY(record::Rerun::open(reader, {}));
@@ -55,16 +71,50 @@ Result<std::unique_ptr<Continued>> Continued::open(const mcap::Reader& reader,
     // make_unique cannot reach the constructor.
     std::unique_ptr<Continued> made(
         new Continued(reader, std::move(parsed.value()), std::move(rerun)));
+    TRY(made->choose_bus(robot));
     made->until_ = until.value_or(made->rerun_->recorded_until());
     const Status bound = made->bind();
     if (!bound.ok()) return at_condition(condition, bound.error());
     return made;
 }
 
-Status Continued::bind() {
-    if (rerun_->plan() != nullptr) {
-        return condition_.bind(rerun_->plan()->graph().plans.front(), true);
+// Where robots have projects of their own, each is another world for a condition.
+Status Continued::choose_bus(const std::string& robot) {
+    const std::vector<record::RunBus> buses = rerun_->buses();
+    bus_ = buses.front();
+    const bool fleet = buses.size() > 1;
+    if (!fleet && robot.empty()) return Status::done();
+    if (!fleet) {
+        return Error{Code::BadInput,
+                     fmt::format("--robot {}: {} is of a run with one bus and at most one plan, so "
+                                 "its condition needs no robot; leave --robot out",
+                                 robot, reader_.name())};
     }
+    const sim::World& world = rerun_->session()->world();
+    std::vector<std::string> known;
+    for (const sim::RobotDefinition& one : world.definition().robots) known.push_back(one.name);
+    if (robot.empty()) {
+        return Error{Code::BadInput,
+                     fmt::format("{}: --turning-point needs to know whose condition it is, for {} "
+                                 "robots of this run have projects of their own; say so, as "
+                                 "--robot {}",
+                                 reader_.name(), buses.size() - 1, buses[1].robot)};
+    }
+    const auto found = world.find_robot(robot);
+    if (!found) {
+        return Error{Code::NotFound, fmt::format("there is no robot \"{}\" in this run; {}", robot,
+                                                 known_instead(robot, known))};
+    }
+    for (size_t i = 1; i < buses.size(); ++i) {
+        if (buses[i].robot == robot) bus_index_ = i;
+    }
+    bus_ = buses[bus_index_];
+    bus_.number = found->number;
+    return Status::done();
+}
+
+Status Continued::bind() {
+    if (bus_.plan != nullptr) return condition_.bind(bus_.plan->graph().plans.front(), true);
     no_plan_.plans.emplace_back();
     return condition_.bind(no_plan_.plans.front(), true);
 }
@@ -107,12 +157,13 @@ Status Continued::record(const Continuation& start, const std::string& file) {
 }
 
 Result<RunEnd> Continued::run(record::Tape& tape, Ends ends) {
-    const bool has_plan = rerun_->plan() != nullptr;
     const ReadWorld world = rerun_->plan_world() != nullptr
                                 ? read_world_of(rerun_->plan_world())
-                                : ReadWorld{rerun_->session(), sim::RobotId{1}};
-    Awaited awaited(condition_, has_plan ? rerun_->plan()->graph() : no_plan_, world);
-    rerun_->listen([&awaited](const plan::TraceEvent& event) { awaited.line(event); });
+                                : ReadWorld{bus_.session, sim::RobotId{std::max(1u, bus_.number)}};
+    Awaited awaited(condition_, bus_.plan != nullptr ? bus_.plan->graph() : no_plan_, world);
+    const auto line = [&awaited](const plan::TraceEvent& event) { awaited.line(event); };
+    LinesOfRobot lines(bus_index_, line);
+    bus_index_ == 0 ? rerun_->listen(line) : rerun_->watch_robots(&lines);
     rerun_->each_instant([&](Time at) {
         awaited.instant();
         const bool enough = at >= until_ || awaited.is_over();

@@ -32,11 +32,13 @@ struct RunEnd {
 class Continued {
 public:
     // The reader is borrowed. Runs end at `until` at the latest; empty: when the recording does.
-    // The Error says what is wrong with the condition, or why the run cannot be continued: it needs
-    // a world, and a studio without somebody in it.
+    // `robot`: whose condition it is, where robots have projects of their own. The Error says what
+    // is wrong with the condition, or why the run cannot be continued: it needs a world, and a
+    // studio without somebody in it.
     static Result<std::unique_ptr<Continued>> open(const mcap::Reader& reader,
                                                    std::string_view condition,
-                                                   std::optional<Time> until);
+                                                   std::optional<Time> until,
+                                                   const std::string& robot = "");
     Continued(const Continued&) = delete;
     Continued& operator=(const Continued&) = delete;
 
@@ -56,6 +58,7 @@ public:
 private:
     Continued(const mcap::Reader& reader, Condition condition, std::unique_ptr<record::Rerun> rerun)
         : reader_(reader), condition_(std::move(condition)), rerun_(std::move(rerun)) {}
+    Status choose_bus(const std::string& robot);
     Status bind();
     enum class Ends : uint8_t { WhenItCame, AtItsEnd };
     Result<RunEnd> run(record::Tape& tape, Ends ends);
@@ -63,7 +66,9 @@ private:
     const mcap::Reader& reader_;
     Condition condition_;
     std::unique_ptr<record::Rerun> rerun_;
-    plan::Graph no_plan_;  // of a world without one
+    record::RunBus bus_;    // that the condition is about
+    size_t bus_index_ = 0;  // in rerun_->buses()
+    plan::Graph no_plan_;   // of a world without one
     Time until_{};
 };
 

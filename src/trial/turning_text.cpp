@@ -39,9 +39,10 @@ std::string describe_run(const TurningTold& told) {
         told.run.came ? fmt::format("became true at {} s", short_seconds(*told.run.came))
                       : fmt::format("did not become true by {} s", short_seconds(told.run.end));
     return fmt::format(
-        "{}: {} {}\nof {} continuations from an instant, it became true after it in "
+        "{}: {}{} {}\nof {} continuations from an instant, it became true after it in "
         "(95 % interval):\n",
-        told.file, told.condition, came, told.question.tries);
+        told.file, told.robot.empty() ? "" : told.robot + ": ", told.condition, came,
+        told.question.tries);
 }
 
 std::string describe_flat(const Turning& turning) {
@@ -134,9 +135,10 @@ std::string format_turning_json(const TurningTold& told) {
         curve += (curve.empty() ? "\n" : ",\n") + point_json(point);
     }
     return fmt::format(
-        R"({{"condition":{},"came":{},"end":{},"tries":{},"continuations":{},"curve":[{}],)"
+        R"({{{}"condition":{},"came":{},"end":{},"tries":{},"continuations":{},"curve":[{}],)"
         R"("turn":{}}})"
         "\n",
+        told.robot.empty() ? "" : fmt::format(R"("robot":{},)", json_quote(told.robot)),
         json_quote(told.condition), told.run.came ? seconds_text(*told.run.came) : "null",
         seconds_text(told.run.end), told.question.tries, told.turning.continuations, curve,
         turn_json(told));

@@ -14,6 +14,7 @@ namespace vagus::trial {
 // All that was found.
 struct TurningTold {
     std::string file = {};       // the recording
+    std::string robot = {};      // whose condition it is, where robots have projects of their own
     std::string condition = {};  // as it was typed
     TurningQuestion question = {};
     RunEnd run = {};  // as it was recorded

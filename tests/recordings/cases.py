@@ -149,13 +149,6 @@ class Recordings(unittest.TestCase):
         told = run_vagus("compare", first, other, status=1)
         self.assertRegex(told, r"differs at [\d.]+ s: /robot/r\d+/node/drive/variables")
 
-    def test_questions_of_one_bus_are_not_for_a_fleet(self):
-        self.run_fleet("warehouse/hall", duration=2)
-        for words, status in ((["why", self.file, "end"], 1), (["why", self.file, "--turning-point", "contact > 1"], 2),
-                              (["replay", self.file, "--log", "drive:1", "token"], 2)):
-            told = run_vagus(*words, status=status)
-            self.assertIn("needs a run of one bus and one plan, and 10 robots of this one have projects of their own", told)
-
     def test_more_robots_than_a_file_has_channels_for_are_not_recorded(self):
         """A thousand are; one more is not."""
         project = self.folder / "p"

@@ -58,14 +58,17 @@ void add_compare(CLI::App& app, int& exit_code) {
     takes_file(*verb->add_option("B", options->b, "another")->required(), {".mcap"});
     verb->add_option("--align", options->align,
                      "what is laid one over the other: start, actor NAME (where it begins first), "
-                     "event NAME (of the bus or of a supervisor, where it comes first)")
+                     "event NAME (of the bus or of a supervisor, where it comes first); of one of "
+                     "several robots with projects of their own r4/NAME")
         ->type_name("start|actor NAME|event NAME")
         ->expected(1, 2);
     verb->add_flag("--json", options->json, "all lanes as JSON on stdout");
     verb->footer(
         "Tells, for each lane, the first difference, the earliest before the others: what came "
         "from outside, the trace of the plan, events of the bus, the variables of each node, the "
-        "pose of each robot and loose object, the world, the end. Before them, what the two were "
+        "pose of each robot and loose object, the world, the end. Robots with projects of their "
+        "own "
+        "have lanes of their own. Before them, what the two were "
         "started with, where that is not the same. Beyond the end of the shorter one nothing is "
         "compared.\nExit codes: 0 no difference, 1 differences, 2 not valid.\n\nExample:\n"
         "  vagus compare monday.mcap tuesday.mcap\n"

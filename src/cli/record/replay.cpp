@@ -17,7 +17,7 @@
 #include "record/both_tapes.hpp"
 #include "record/compare_tape.hpp"
 #include "record/file_tape.hpp"
-#include "record/log_points.hpp"
+#include "record/log_run.hpp"
 #include "record/replay.hpp"
 
 namespace vagus::cli {
@@ -185,18 +185,13 @@ Result<std::unique_ptr<record::FileTape>> new_recording(const ReplayOptions& opt
 // What is put into the run for a person who looks at it; the Error says what is not there.
 Result<std::unique_ptr<record::LogPoints>> log_points(const ReplayOptions& options,
                                                       record::Rerun& rerun) {
-    if (!options.log.empty()) {
-        TRY(record::check_one_bus(rerun.about(), options.file, "--log"));
-    }
     std::vector<record::LogWish> wishes;
     for (const auto& [where, values] : options.log) wishes.push_back({where, values});
-    const record::LogPoints::Run run{rerun.session(),
-                                     rerun.plan() != nullptr ? &rerun.plan()->graph() : nullptr};
     const auto show = [json = options.json](const record::LogHit& hit) {
         print((json ? record::format_hit_json(hit) : record::format_hit(hit)) + "\n");
     };
-    auto points = TRY(record::LogPoints::set(wishes, run, show));
-    rerun.listen([&points = *points](const plan::TraceEvent& event) { points.see(event); });
+    auto points = TRY(record::LogPoints::set(wishes, record::buses_of(rerun), show));
+    record::follow(rerun, *points);
     return points;
 }
 
@@ -394,7 +389,9 @@ void add_replay(CLI::App& app, int& exit_code) {
     verb->add_option("--log", options->log,
                      "prints what these variables hold each time the line of a node's script "
                      "(drive:42), or the element of the plan (@followWall.enter, "
-                     "@followWall.leave, @wallTouch.raise) is reached; again for more")
+                     "@followWall.leave, @wallTouch.raise) is reached; of robots with projects of "
+                     "their own that of each, or of one as r4/drive:42, r4/@takeTask.enter; again "
+                     "for more")
         ->type_name("WHERE VALUES")
         ->allow_extra_args(false);
     add_jumps(*verb, *options);

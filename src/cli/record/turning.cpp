@@ -152,7 +152,8 @@ Status keep_recordings(Asker& asker, const TurningOptions& options, trial::Turni
 
 Result<trial::TurningTold> find(Asker& asker, const trial::Continued& continued,
                                 const mcap::Reader& reader, const TurningOptions& options) {
-    trial::TurningTold told{.file = options.file, .condition = continued.condition().text()};
+    trial::TurningTold told{
+        .file = options.file, .robot = options.robot, .condition = continued.condition().text()};
     told.run = TRY(asker.as_it_was());
     told.question = {.end = told.run.came.value_or(told.run.end),
                      .came = told.run.came.has_value(),
@@ -161,7 +162,7 @@ Result<trial::TurningTold> find(Asker& asker, const trial::Continued& continued,
         told.question, [&asker](const auto& continuations) { return asker.ask(continuations); }));
     if (!told.turning.turn) return told;
     const trial::Turn& turn = *told.turning.turn;
-    told.there = TRY(record::moment(reader, turn.before.at, turn.after.at));
+    told.there = TRY(record::moment(reader, turn.before.at, turn.after.at, options.robot));
     TRY(keep_recordings(asker, options, told));
     return told;
 }
@@ -211,7 +212,8 @@ int tell(const TurningOptions& options) {
     }
     std::optional<Time> until;
     if (options.until) until = from_seconds(*options.until);
-    const auto continued = trial::Continued::open(reader.value(), options.condition, until);
+    const auto continued =
+        trial::Continued::open(reader.value(), options.condition, until, options.robot);
     if (!continued.ok()) return complain(continued.error(), kExitUsage);
     Asker asker(*continued.value(), options);
     const auto told = find(asker, *continued.value(), reader.value(), options);

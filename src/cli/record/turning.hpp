@@ -21,6 +21,7 @@ namespace vagus::cli {
 struct TurningOptions {
     std::string file;
     std::string condition;
+    std::string robot;  // whose it is, where robots have projects of their own
     int64_t tries = trial::kTriesUsual;
     std::optional<double> until;  // s; empty: the end of the recording
     int64_t at_once = 0;          // 0: as many as there are processors

@@ -22,6 +22,7 @@ struct WhyOptions {
     TurningOptions turning;  // if its condition is given
     std::string file;
     std::vector<std::string> question;
+    std::string robot;
     std::optional<double> at;
     bool json = false;
     bool all = false;
@@ -31,11 +32,13 @@ int tell_why(const WhyOptions& options) {
     if (!options.turning.condition.empty()) {
         TurningOptions turning = options.turning;
         turning.file = options.file;
+        turning.robot = options.robot;
         turning.json = options.json;
         return tell_turning(turning);
     }
-    const auto question = record::read_question(options.question);
+    auto question = record::read_question(options.question);
     if (!question.ok()) return complain(question.error(), kExitUsage);
+    question.value().robot = options.robot;
     const auto file = MappedFile::open(options.file);
     if (!file.ok()) return complain(file.error(), kExitUsage);
     const auto reader = mcap::Reader::open(file.value().bytes(), options.file);
@@ -71,6 +74,9 @@ void add_why(CLI::App& app, int& exit_code) {
         "QUESTION", options->question,
         "actor NAME, variable NODE.NAME, variable NAME, motor ROBOT, event NAME, end");
     question->expected(1, 2);
+    verb->add_option("--robot", options->robot,
+                     "of robots with projects of their own, the one that is asked about")
+        ->type_name("NAME");
     CLI::Option* const at =
         verb->add_option("--at", options->at, "the instant that the question is about (the end)");
     at->type_name("S");
@@ -81,7 +87,9 @@ void add_why(CLI::App& app, int& exit_code) {
     verb->footer(
         "Prints what happened before it, the newest first, one line each: when, what, its value, "
         "and where it is written. The last line is where it began: something in the world, a "
-        "person, a timer, the beginning. Plans, scripts and worlds are those in the recording.\n"
+        "person, a timer, the beginning. Plans, scripts and worlds are those in the recording. "
+        "Where robots have projects of their own each line says whose it is, and what the fleet "
+        "brought leads on to the robot that sent it.\n"
         "--turning-point asks when a condition of a test (vagus test --signals) was decided: from "
         "instants over the run it is continued again and again with other seeds, and counted "
         "in how many continuations the condition becomes true. Told are that curve, the instant at "
@@ -91,6 +99,7 @@ void add_why(CLI::App& app, int& exit_code) {
         "  vagus why run.mcap motor carbot --at 83\n"
         "  vagus why run.mcap actor backupCollision\n"
         "  vagus why run.mcap variable drive.token --at 20\n"
+        "  vagus why fleet.mcap event alarm --robot t11\n"
         "  vagus why run.mcap --turning-point \"contact >= 2\" --tries 40");
     verb->callback([options, &exit_code] { exit_code = tell_why(*options); });
 }

@@ -6,6 +6,7 @@
 #include "base/line_sink.hpp"
 #include "cli/output.hpp"
 #include "cli/page.hpp"
+#include "cli/record/turning_host.hpp"
 #include "cli/studio/runner.hpp"
 #include "cli/test/test_host.hpp"
 #include "cli/usage.hpp"
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
     vagus::cli::add_compare_host(app, exit_code);
     vagus::cli::add_try_host(app, exit_code);
     vagus::cli::add_test_host(app, exit_code);
+    vagus::cli::add_turning_host(app, exit_code);
     vagus::cli::shape_help(app);
     vagus::cli::refuse_options_as_values(app);
     return vagus::cli::end_output(parse_and_run(app, argc, argv, exit_code));

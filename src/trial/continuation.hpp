@@ -33,7 +33,7 @@ class Continued {
 public:
     // The reader is borrowed. Runs end at `until` at the latest; empty: when the recording does.
     // The Error says what is wrong with the condition, or why the run cannot be continued: it needs
-    // a world, and a studio without somebody in it.
+    // a world, and nobody may have stepped it or stopped it at a breakpoint.
     static Result<std::unique_ptr<Continued>> open(const mcap::Reader& reader,
                                                    std::string_view condition,
                                                    std::optional<Time> until);

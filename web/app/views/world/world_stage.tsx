@@ -68,7 +68,7 @@ export function WorldStage({
         <PlacingNote model={model} />
         {children}
       </div>
-      {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
+      {live && options.picture ? <CameraPicture model={model} /> : null}
       {menu ? (
         <Suspense>
           <RobotMenu at={menu} onClose={() => (setMenu(null), frame.current?.focus())} />

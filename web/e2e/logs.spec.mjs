@@ -97,7 +97,7 @@ test('what drive held each time it was told to steer', wall, async (studio) => {
   assert.ok(expected.length > 2, `${expected.length} hits`);
   await reads(points(page).first(), new RegExp(`${expected.length} hits`));
   // Its line has a mark, and says what it logs.
-  const marked = studio.editor('drive').locator('.disc--log');
+  const marked = page.locator('.disc--log');
   await seen(marked);
   assert.equal(await marked.getAttribute('title'), `Log point on line ${await lineOf(page)}`);
   await reads(studio.editor('drive'), /call drive\.steer[^\n]*logs token, patience/);

@@ -29,6 +29,10 @@ export default defineConfig({
             { name: 'codemirror', test: /@codemirror\/(?!lang|legacy|merge)/ },
             { name: 'icons', test: /tabler/ },
             { name: 'parts', test: /app\/parts\// },
+            {
+              name: 'small',
+              test: /\/(log_lines|looks|robot_hooks|run_choice|webgl|world_name)\.tsx?$/,
+            },
           ],
         },
       },

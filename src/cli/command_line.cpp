@@ -6,6 +6,7 @@
 #include "base/line_sink.hpp"
 #include "cli/output.hpp"
 #include "cli/page.hpp"
+#include "cli/record/turning_host.hpp"
 #include "cli/studio/runner.hpp"
 #include "cli/test/test_host.hpp"
 #include "cli/usage.hpp"
@@ -62,6 +63,7 @@ int run_command_line(int argc, const char* const* argv) {
     add_compare_host(app, exit_code);
     add_try_host(app, exit_code);
     add_test_host(app, exit_code);
+    add_turning_host(app, exit_code);
     shape_help(app);
     refuse_options_as_values(app);
     return end_output(parse_and_run(app, argc, argv, exit_code));

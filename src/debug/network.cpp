@@ -9,6 +9,7 @@
 #include "debug/peer.hpp"
 #include "debug/presence.hpp"
 #include "debug/text.hpp"
+#include "debug/user_event.hpp"
 
 namespace vagus::debug {
 
@@ -113,11 +114,7 @@ void Network::Impl::receive(Time now, const wire::Frame& frame) {
 
 void Network::Impl::receive_event(const wire::Frame& frame) {
     if (Peer* known = peer(frame.source)) known->seen();
-    UserEvent event;
-    event.number = frame.type;
-    if (frame.type < common.events.size()) event.name = common.events[frame.type].name;
-    event.arguments = wire::arguments_of<std::vector<int16_t>>(frame);
-    out.tell(frame.source, std::move(event));
+    out.tell(frame.source, user_event_of(frame, common));
 }
 
 void Network::Impl::receive_command(const wire::Frame& frame) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "debug/user_event.hpp"
 #include "record/past_bus.hpp"
 #include "wire/bytes.hpp"
 #include "wire/protocol.hpp"
@@ -114,10 +115,9 @@ void BusCauses::frame_on_bus(const wire::Frame& frame, uint32_t number) {
     host_sets(frame);
     if (number == 0 || !wire::is_user_event(frame.type)) return;
     Frame& of = frames_[number];
-    const auto& events = bus_.session->common().events;
-    of.event = frame.type < events.size() ? events[frame.type].name : std::to_string(frame.type);
-    wire::Reader reader(frame.payload, frame.size);
-    while (reader.left() >= 2) of.arguments.push_back(reader.i16());
+    debug::UserEvent event = debug::user_event_of(frame, bus_.session->common());
+    of.event = debug::name_or_number(event);
+    of.arguments = std::move(event.arguments);
     of.source = frame.source;
     if (of.node.robot != 0) return;
     of.at = now();

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "debug/user_event.hpp"
 #include "mcap/records.hpp"
-#include "wire/bytes.hpp"
 
 namespace vagus::record {
 
@@ -36,16 +37,12 @@ std::optional<RecordedFrame> read_frame(std::string_view data) {
     return recorded;
 }
 
-std::string event_name(const aesl::CommonDefinitions& common, const wire::Frame& frame) {
-    return frame.type < common.events.size() ? common.events[frame.type].name
-                                             : std::to_string(frame.type);
-}
-
-std::vector<int16_t> words_of(const wire::Frame& frame) {
-    std::vector<int16_t> words;
-    wire::Reader reader(frame.payload, frame.size);
-    while (reader.left() >= 2) words.push_back(reader.i16());
-    return words;
+RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::UserEvent event) {
+    return {.at = at,
+            .frame = number,
+            .node = node,
+            .name = debug::name_or_number(event),
+            .arguments = std::move(event.arguments)};
 }
 
 std::string format_event(const RecordedEvent& event) {

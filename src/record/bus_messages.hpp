@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "aesl/target.hpp"
 #include "base/time.hpp"
+#include "debug/event.hpp"
 #include "wire/frame.hpp"
 
 namespace vagus::record {
@@ -26,19 +26,16 @@ struct RecordedFrame {
 std::string format_frame(const RecordedFrame& recorded);
 std::optional<RecordedFrame> read_frame(std::string_view data);
 
-// The name of a user event; its number, if none of the definitions is its.
-std::string event_name(const aesl::CommonDefinitions& common, const wire::Frame& frame);
-// Its arguments.
-std::vector<int16_t> words_of(const wire::Frame& frame);
-
 struct RecordedEvent {
     Time at{};
     uint32_t frame = 0;  // its number
     uint16_t node = 0;
-    std::string name = {};
+    std::string name = {};  // its number, if no definition is its
     std::vector<int16_t> arguments = {};
     std::string by = {};  // of a plan on a real bus: the element whose code emitted it
 };
+// Decoded once, for all that write and read recordings. `number` is that of its frame.
+RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::UserEvent event);
 std::string format_event(const RecordedEvent& event);
 
 // "[1,-2]"

@@ -9,6 +9,7 @@
 #include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "debug/names.hpp"
+#include "debug/user_event.hpp"
 #include "record/topics.hpp"
 #include "wire/bytes.hpp"
 #include "wire/protocol.hpp"
@@ -64,13 +65,10 @@ uint32_t BusRecorder::frame(Time at, const Passed& passed) {
     const uint32_t number = ++last_;
     tape_.put(frames_, at, format_frame({number, passed.cause, frame}));
     if (wire::is_user_event(frame.type)) {
-        tape_.put(events_, at,
-                  format_event({.at = at,
-                                .frame = number,
-                                .node = frame.source,
-                                .name = event_name(common_, frame),
-                                .arguments = words_of(frame),
-                                .by = std::string(passed.by)}));
+        RecordedEvent event =
+            recorded_event(at, number, frame.source, debug::user_event_of(frame, common_));
+        event.by = passed.by;
+        tape_.put(events_, at, format_event(event));
     } else if (frame.type == static_cast<uint16_t>(wire::MessageType::Variables)) {
         variables(at, frame);
     }

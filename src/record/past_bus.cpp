@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/json.hpp"
+#include "debug/user_event.hpp"
 #include "record/compare_tape.hpp"
 #include "record/topics.hpp"
 #include "wire/protocol.hpp"
@@ -85,13 +86,11 @@ Status PastBus::see_input(Time at, std::string_view text, const std::string& nam
 void PastBus::see_frame(Time at, std::string_view data) {
     const auto recorded = read_frame(data);
     if (!recorded || !wire::is_user_event(recorded->frame.type)) return;
-    events_[recorded->number] = {.event = {.at = at,
-                                           .frame = recorded->number,
-                                           .node = recorded->frame.source,
-                                           .name = event_name(project_.common, recorded->frame),
-                                           .arguments = words_of(recorded->frame)},
-                                 .cause = recorded->cause,
-                                 .lines = lines_.size()};
+    debug::UserEvent event = debug::user_event_of(recorded->frame, project_.common);
+    events_[recorded->number] = {
+        .event = recorded_event(at, recorded->number, recorded->frame.source, std::move(event)),
+        .cause = recorded->cause,
+        .lines = lines_.size()};
 }
 
 // Tells who in the plan sent it.

@@ -51,12 +51,12 @@ Result<PastPaths> PastRun::paths(const std::string& path) const {
 
 namespace {
 
-bool is_reseeded(const Input& input) {
-    return std::holds_alternative<Reseeded>(input.what);
-}
-
 bool ends_it(const Input& input) {
     return std::holds_alternative<RecordingEnds>(input.what);
+}
+
+bool comes_by_itself(const Input& input) {
+    return ends_it(input) || std::holds_alternative<Reseeded>(input.what);
 }
 
 // Inputs of other verbs than the studio's have no turns.
@@ -83,12 +83,7 @@ Status check_lived(const PastRun& past, const std::string& path) {
                                         ": is of a world without a plan, recorded by `vagus "
                                         "sim`; `vagus replay` runs it again"};
     }
-    if (std::ranges::any_of(past.inputs, is_reseeded)) {
-        return Error{Code::Refused, path +
-                                        ": chance was drawn again in this run, by `vagus replay "
-                                        "--reseed`; `vagus replay` runs it again"};
-    }
-    if (past.about.verb == kStudioVerb || std::ranges::all_of(past.inputs, ends_it)) {
+    if (past.about.verb == kStudioVerb || std::ranges::all_of(past.inputs, comes_by_itself)) {
         return Status::done();
     }
     return Error{Code::Refused, fmt::format("{}: somebody did something to this run of `vagus {}`; "

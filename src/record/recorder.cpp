@@ -197,6 +197,7 @@ void Recorder::follow_bus(session::SimSession& session) {
     events_ = tape_.declare({.name = std::string(kEventsTopic)});
     session.world().number_frames();
     session.on_frame([this](const wire::Frame& one, uint32_t number) { frame(one, number); });
+    session.on_heard([this](const debug::Event& event) { heard(event); });
     session.on_instant([this] { instant(); });
     session.on_ahead([this] { input(HeardAhead{}); });
     for (const hub::LinkId link : session.bus().links()) {
@@ -282,13 +283,12 @@ void Recorder::frame(const wire::Frame& frame, uint32_t number) {
     const Time at = now();
     const uint32_t cause = session_->world().frame_numbers()->cause_of(number);
     tape_.put(frames_, at, format_frame({number, cause, frame}));
-    if (!wire::is_user_event(frame.type)) return;
-    tape_.put(events_, at,
-              format_event({.at = at,
-                            .frame = number,
-                            .node = frame.source,
-                            .name = event_name(session_->common(), frame),
-                            .arguments = words_of(frame)}));
+}
+
+void Recorder::heard(const debug::Event& event) {
+    const auto* const sent = std::get_if<debug::UserEvent>(&event.what);
+    if (sent == nullptr) return;
+    tape_.put(events_, now(), format_event(recorded_event(now(), event.frame, event.node, *sent)));
 }
 
 // ---- nodes ----

@@ -103,6 +103,7 @@ private:
     void instant();
     void from_outside(hub::LinkId from, const wire::Frame& frame);
     void frame(const wire::Frame& frame, uint32_t number);
+    void heard(const debug::Event& event);
     void look_for_nodes();
     void learn_variables(Node& node);
     void variables(Node& node, Time at, bool all);

@@ -121,6 +121,7 @@ public:
     // When the last thing of it was recorded.
     Time recorded_until() const { return end_; }
     const RunFile& about() const { return about_; }
+    const std::vector<Input>& inputs() const { return inputs_; }
     // Who ended the run; empty: nobody so far.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
     // A path of the folder as its name in the recording.

@@ -45,6 +45,8 @@ public:
     void changed(const std::vector<std::string>& saved,
                  const std::map<std::string, std::string>& read);
     void loaded(uint16_t node, const std::string& file, const std::string& text);
+    // All that is random is drawn from this seed from here on.
+    void reseeded(uint64_t seed) { recorder_->input(Reseeded{seed}); }
 
     // All that is there now is to be in the file; flushed() tells when it is.
     uint64_t flush() { return tape_->flush(); }

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/project_border.hpp"
+#include "debug/user_event.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/trace.hpp"
 #include "sim/world_file.hpp"
@@ -163,7 +164,7 @@ void SimSession::listen(const std::vector<wire::Frame>& delivered) {
         network_.receive(clock_, frame);
     }
     if (network_.next_tick() <= clock_) network_.tick(clock_);
-    for (const debug::Event& event : network_.take_events()) hear(event);
+    for (debug::Event& event : network_.take_events()) hear(std::move(event));
     if (guests_) guests_->tick(clock_);
 }
 
@@ -203,9 +204,17 @@ void SimSession::number_own(const wire::Frame& frame) {
         cause = emit_causes_.front();
         emit_causes_.pop_front();
     }
-    if (numbers == nullptr) return;
-    const uint32_t number = numbers->sent(on_bus(frame), cause);
-    for (const FrameListener& told : told_of_frame_) told(frame, number);
+    const uint32_t number = numbers == nullptr ? 0 : numbers->sent(on_bus(frame), cause);
+    if (numbers != nullptr) {
+        for (const FrameListener& told : told_of_frame_) told(frame, number);
+    }
+    if (wire::is_user_event(frame.type)) tell_own(frame, number);
+}
+
+void SimSession::tell_own(const wire::Frame& frame, uint32_t number) {
+    if (told_of_heard_.empty()) return;
+    const debug::Event own{clock_, wire::kHostId, debug::user_event_of(frame, common()), number};
+    for (const HeardListener& told : told_of_heard_) told(own);
 }
 
 void SimSession::number_heard(const wire::Frame& frame) {
@@ -247,7 +256,7 @@ void SimSession::hear_ahead() {
             put_off_.push_back(frame);
         }
     }
-    for (const debug::Event& event : network_.take_events()) hear(event);
+    for (debug::Event& event : network_.take_events()) hear(std::move(event));
 }
 
 void SimSession::reset() {
@@ -298,16 +307,13 @@ std::vector<StopNode> SimSession::guests() const {
 
 // ---- what the bus says ----
 
-void SimSession::hear(const debug::Event& event) {
-    uint32_t frame = 0;
+void SimSession::hear(debug::Event event) {
     if (std::holds_alternative<debug::UserEvent>(event.what) && !event_frames_.empty()) {
-        frame = event_frames_.front();
+        event.frame = event_frames_.front();
         event_frames_.pop_front();
     }
-    if (options_.heard && heard_.size() < kHeardMax) {
-        heard_.push_back(event);
-        heard_.back().frame = frame;
-    }
+    if (options_.heard && heard_.size() < kHeardMax) heard_.push_back(event);
+    for (const HeardListener& told : told_of_heard_) told(event);
     if (guests_) guests_->hear(event);
     if (const auto* sent = std::get_if<debug::UserEvent>(&event.what)) {
         hear_user_event(event, *sent);

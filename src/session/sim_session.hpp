@@ -184,6 +184,10 @@ public:
     // all others as they reach hosts.
     using FrameListener = std::function<void(const wire::Frame&, uint32_t number)>;
     void on_frame(FrameListener told) { told_of_frame_.push_back(std::move(told)); }
+    // Is told of what this host hears, as it decoded it, and of user events that it sends itself,
+    // as they leave: with the numbers of their frames, where frames have them.
+    using HeardListener = std::function<void(const debug::Event&)>;
+    void on_heard(HeardListener told) { told_of_heard_.push_back(std::move(told)); }
     // Is told at the end of each instant, when the bodies have moved.
     void on_instant(std::function<void()> told) { told_of_instant_.push_back(std::move(told)); }
     // Is told before hear_ahead() takes what waits.
@@ -192,6 +196,7 @@ public:
     void forget_listeners() {
         told_of_ahead_ = {};
         told_of_frame_.clear();
+        told_of_heard_.clear();
         told_of_instant_.clear();
     }
     // The place in a file of a line of the program of a node; empty without one.
@@ -288,7 +293,8 @@ private:
     void number_own(const wire::Frame& frame);
     void number_heard(const wire::Frame& frame);
     void note(NoteKind kind, std::string text);
-    void hear(const debug::Event& event);
+    void hear(debug::Event event);
+    void tell_own(const wire::Frame& frame, uint32_t number);
     void hear_user_event(const debug::Event& event, const debug::UserEvent& sent);
     void hear_fault(Node& node, const debug::Fault& fault);
     void hear_done(Node& node, const debug::RequestDone& done);
@@ -347,6 +353,7 @@ private:
     std::vector<std::string> hints_;
     std::vector<debug::Event> heard_;
     std::vector<FrameListener> told_of_frame_;
+    std::vector<HeardListener> told_of_heard_;
     std::vector<std::function<void()>> told_of_instant_;
     std::function<void()> told_of_ahead_;
     uint32_t last_frame_ = 0;            // that it took, by its number

@@ -12,6 +12,7 @@
 #include "record/causes.hpp"
 #include "record/file_tape.hpp"
 #include "session/plan_world.hpp"
+#include "wire/messages.hpp"
 
 namespace vagus::trial {
 
@@ -25,6 +26,22 @@ Error at_condition(std::string_view condition, const Error& error) {
     return {error.code, fmt::format("the condition {}: {}", json_quote(condition), error.what)};
 }
 
+bool is_breakpoint(const wire::Frame& frame) {
+    return frame.type == static_cast<uint16_t>(wire::MessageType::BreakpointSet);
+}
+
+// What a person did at an instant is done at it in each continuation. What halts a run where its
+// plan or a script comes to a place halts another one elsewhere, and nobody is there to let it go.
+bool halts_at_a_place(const record::Input& input) {
+    if (const auto* const frame = std::get_if<wire::Frame>(&input.what)) {
+        return is_breakpoint(*frame);
+    }
+    const auto* const asked = std::get_if<run::Request>(&input.what);
+    return asked != nullptr && (std::holds_alternative<run::AddBreakpoint>(*asked) ||
+                                std::holds_alternative<run::Step>(*asked) ||
+                                std::holds_alternative<run::StepEvent>(*asked));
+}
+
 Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
     if (rerun.about().is_of_bus()) {
         return cannot(reader,
@@ -36,10 +53,11 @@ Status check_can_continue(const mcap::Reader& reader, record::Rerun& rerun) {
                       "is of a plan without a world, which cannot be continued from an instant; "
                       "record one that runs beside a world, with `vagus plan run --world`");
     }
-    if (rerun.about().verb == record::kStudioVerb) {
+    if (std::ranges::any_of(rerun.inputs(), halts_at_a_place)) {
         return cannot(reader,
-                      "is of a run in the studio, where a person may have paused it; record the "
-                      "same with `vagus plan run --record` or `vagus sim --record`");
+                      "is of a run that somebody stepped or stopped at a breakpoint, which would "
+                      "be elsewhere in another run; run it without breakpoints and steps, and ask "
+                      "again");
     }
     return Status::done();
 }

@@ -33,8 +33,8 @@ class Continued {
 public:
     // The reader is borrowed. Runs end at `until` at the latest; empty: when the recording does.
     // `robot`: whose condition it is, where robots have projects of their own. The Error says what
-    // is wrong with the condition, or why the run cannot be continued: it needs a world, and a
-    // studio without somebody in it.
+    // is wrong with the condition, or why the run cannot be continued: it needs a world, and nobody
+    // may have stepped it or stopped it at a breakpoint.
     static Result<std::unique_ptr<Continued>> open(const mcap::Reader& reader,
                                                    std::string_view condition,
                                                    std::optional<Time> until,

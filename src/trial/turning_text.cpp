@@ -48,22 +48,21 @@ std::string describe_run(const TurningTold& told) {
 std::string describe_flat(const Turning& turning) {
     const Share all = turning.all();
     if (all.came == all.of && all.of > 0) {
-        return fmt::format("not decided by chance: it became true in all {} continuations\n",
-                           all.of);
+        return fmt::format("not decided by chance: it became true in all {} continuations", all.of);
     }
     if (all.came == 0) {
-        return fmt::format("not decided by chance: it became true in none of {} continuations\n",
+        return fmt::format("not decided by chance: it became true in none of {} continuations",
                            all.of);
     }
     return fmt::format(
         "not decided by chance: it became true in {} continuations, and no change "
-        "over time is significant\n",
+        "over time is significant",
         count(all));
 }
 
 // A point of the curve that is its end counts as what it is known to be.
 std::string describe_turn(const Turn& turn) {
-    return fmt::format("it turned {} {} s and {} s: before in {}, from then on in {}\n",
+    return fmt::format("it turned {} {} s and {} s: before in {}, from then on in {}",
                        turn.narrowed ? "between" : "little by little between",
                        short_seconds(turn.before.at), short_seconds(turn.after.at),
                        count(turn.before.share),
@@ -120,11 +119,15 @@ std::string turn_json(const TurningTold& told) {
 
 }  // namespace
 
+std::string turning_sentence(const Turning& turning) {
+    return turning.turn ? describe_turn(*turning.turn) : describe_flat(turning);
+}
+
 std::string format_turning(const TurningTold& told) {
     std::string text = describe_run(told);
     for (const Point& point : told.turning.curve) text += point_line(point);
-    if (!told.turning.turn) return text + describe_flat(told.turning);
-    text += describe_turn(*told.turning.turn);
+    text += turning_sentence(told.turning) + "\n";
+    if (!told.turning.turn) return text;
     for (const record::Link& link : told.there) text += record::format_link(link) + "\n";
     return text + describe_recordings(told);
 }

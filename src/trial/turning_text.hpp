@@ -25,6 +25,8 @@ struct TurningTold {
     std::string without = {};
 };
 
+// What was found, as one sentence: where it turned, or that chance did not decide it.
+std::string turning_sentence(const Turning& turning);
 // The curve, the instant at which it turned, what was there, and the two recordings; or that chance
 // did not decide it.
 std::string format_turning(const TurningTold& told);

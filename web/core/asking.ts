@@ -19,6 +19,8 @@ export interface Question {
 
 export class Asking {
   readonly changed = new Emitter<void>();
+  /** What the panel shows: why something is as it is, or when something was decided. */
+  view: 'why' | 'decided' = 'why';
   question: Question | null = null;
   /** What it followed from, the newest first; null until it is answered. */
   chain: readonly WhyLink[] | null = null;
@@ -33,8 +35,14 @@ export class Asking {
     return this.question !== null && this.chain === null && this.trouble === '';
   }
 
+  look(view: Asking['view']): void {
+    this.view = view;
+    this.changed.emit();
+  }
+
   /** The answer to a question before this one counts no more. */
   async ask(question: Question): Promise<void> {
+    this.view = 'why';
     this.show(question, null, '');
     const { about, name, t } = question;
     const input: Commands['why.ask']['in'] = { about };

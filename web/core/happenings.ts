@@ -197,7 +197,8 @@ export function happeningsCsv(items: readonly Happening[]): string {
     ...items.map(({ run, t, wall, kind, node, source, name, text, args }) => [
       run,
       t,
-      new Date(wall).toISOString(),
+      // Of a run that was run again nobody knows it.
+      wall === 0 ? '' : new Date(wall).toISOString(),
       kind,
       node,
       source,

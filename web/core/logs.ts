@@ -6,6 +6,7 @@ import type { Commands, Doc } from '../protocol/messages';
 import { csvOf } from './csv';
 import { deskFor } from './desk';
 import { Emitter } from './emitter';
+import { logLinesOf, type LogLine } from './log_lines';
 import { shownTime } from './numbers';
 import type { Studio } from './studio';
 import { whyOf } from './why';
@@ -113,6 +114,13 @@ export class Logs {
     if (this.asking !== null) this.drop(this.asking);
     this.points = this.points.map((one) => ({ ...one, state: 'typed', found: null, trouble: '' }));
     this.changed.emit();
+  }
+
+  /** Those at lines of scripts. */
+  get lines(): LogLine[] {
+    return this.points.flatMap(({ place, values }) =>
+      place.is === 'line' ? [{ doc: place.doc, line: place.line, values }] : [],
+    );
   }
 
   /** Of all points, in the order of time. */
@@ -228,5 +236,6 @@ export const logsOf: (studio: Studio) => Logs = deskFor((studio: Studio) => {
   };
   topics.subscribe('history', {}, told);
   told();
+  logs.changed.on(() => logLinesOf(studio).show(logs.lines));
   return logs;
 });

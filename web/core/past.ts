@@ -27,6 +27,13 @@ export interface OpenTrace {
   to: number;
 }
 
+/** What a view shows of then beside words and poses: where sensors looked, or what a camera saw. */
+export interface Sights {
+  rays?: true;
+  /** Of that robot. */
+  picture?: string;
+}
+
 /** Words of a node that somebody shows: [node, address, count]. */
 export type Range = [node: NodeId, address: number, count: number];
 
@@ -43,6 +50,7 @@ export class Past {
   /** A trace that was opened as a file: nothing runs. */
   trace: OpenTrace | null = null;
 
+  private readonly sights = new Set<Sights>();
   private asking = false;
   private askAgain = false;
   private words = new Map<NodeId, ReadonlyMap<number, number>>();
@@ -116,6 +124,13 @@ export class Past {
     return this.words.get(node)?.get(address);
   }
 
+  /** From now on an instant comes with them, until the returned function is called. */
+  wants(sights: Sights): () => void {
+    this.sights.add(sights);
+    this.ask();
+    return () => this.sights.delete(sights);
+  }
+
   /** Rows have come into sight: their words of that instant are asked for, too. */
   ask(): void {
     if (this.at === null) return;
@@ -142,7 +157,9 @@ export class Past {
 
   private input(t: number, events: number): Commands['history.at']['in'] {
     const trace = this.trace ? { trace: this.trace.path } : {};
-    return { t, events, ranges: this.ranges(), ...trace };
+    const sights: Sights = {};
+    for (const one of this.sights) Object.assign(sights, one);
+    return { t, events, ranges: this.ranges(), ...sights, ...trace };
   }
 
   private show(instant: Instant): void {

@@ -146,6 +146,15 @@ test('a recording is opened, looked back into, asked, and continued', wall, asyn
   await page.mouse.click(box.x + 10, box.y + 8);
   await seen(bar(page));
   await reads(page.locator('.pactive'), /searchFirstWall/);
+  // What happened on the bus while it was run again is on the timeline, and in the list of then.
+  await reads(page.locator('.tl__labels'), /Events[^]*drive/);
+  const t = Number(await slider(page).getAttribute('aria-valuenow'));
+  await page.getByRole('tab', { name: /^Events/ }).click();
+  await until('the newest event is of then', async () => {
+    const newest = await page.locator('.events__list time').first().innerText();
+    return Number(newest) <= t;
+  });
+  await page.getByRole('tab', { name: 'Timeline' }).click();
   await page.getByRole('group', { name: /^searchFirstWall, actor/ }).click({ button: 'right' });
   await page.getByRole('menuitem', { name: 'Why?' }).click();
   await seen(page.getByRole('heading', { name: /^Why is searchFirstWall active/ }));

@@ -59,6 +59,10 @@ async function toLine(
   await press('Enter');
 }
 
+/** The line of the first log point. */
+const lineOf = async (/** @type {Page} */ page) =>
+  /drive:(\d+)/.exec((await points(page).first().innerText()) ?? '')?.[1];
+
 /** What is read at the field that has the keyboard. */
 const isTyped = (/** @type {import('./support/studio.mjs').Locator} */ field) =>
   until('the keyboard is there', () => field.evaluate((is) => is === document.activeElement));
@@ -92,6 +96,11 @@ test('what drive held each time it was told to steer', wall, async (studio) => {
   const expected = logged(server.folder, `drive:${line}`, 'token, patience');
   assert.ok(expected.length > 2, `${expected.length} hits`);
   await reads(points(page).first(), new RegExp(`${expected.length} hits`));
+  // Its line has a mark, and says what it logs.
+  const marked = page.locator('.disc--log');
+  await seen(marked);
+  assert.equal(await marked.getAttribute('title'), `Log point on line ${await lineOf(page)}`);
+  await reads(studio.editor('drive'), /call drive\.steer[^\n]*logs token, patience/);
   const rows = await listed(page);
   assert.ok(rows.length > 2);
   assert.deepEqual(rows, expected.slice(0, rows.length));
@@ -116,6 +125,8 @@ test('what drive held each time it was told to steer', wall, async (studio) => {
   await press('F8');
   await page.getByRole('button', { name: 'Ask', exact: true }).click();
   await reads(points(page).first(), /\d+ hits?|Not reached/);
+  await page.getByRole('button', { name: /^Remove the log point/ }).click();
+  await gone(marked);
 });
 
 test('what a plan held, in its drawing', wall, async (studio) => {

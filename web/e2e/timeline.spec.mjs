@@ -226,6 +226,37 @@ test('by keyboard alone: to the steps of the plan, and by 20 ms', wall, async (s
   await gone(bar(page));
 });
 
+test(
+  'the world of then has its sensor rays and the picture of its camera',
+  wall,
+  async (studio) => {
+    const { page, press } = studio;
+    await run(studio, 6);
+    await press('F8');
+    const caption = page.locator('.world__camera figcaption');
+    await reads(caption, /^carbot$/);
+    const t = await click(page, 3 / 30);
+    // A picture is kept each second.
+    await reads(caption, new RegExp(`^carbot at ${Math.floor(t)}\\.0 s$`));
+    const world = page.getByRole('application', { name: /^World/ });
+    const drawn = () =>
+      world
+        .locator('canvas')
+        .first()
+        .evaluate((canvas) => /** @type {any} */ (canvas).toDataURL());
+    await world.focus();
+    await until('it stays as it was then', async () => (await drawn()) === (await drawn()));
+    const rays = await drawn();
+    await press('r');
+    await until('the rays of then are hidden', async () => (await drawn()) !== rays);
+    await press('r');
+    await until('and shown again', async () => (await drawn()) === rays);
+    await press('Escape');
+    await gone(bar(page));
+    await reads(caption, /^carbot$/);
+  },
+);
+
 test('a trace that was saved is opened without a run', wall, async (studio) => {
   const { page, press, layout, command } = studio;
   await run(studio, 3);

@@ -350,6 +350,7 @@ export interface Happening {
   run?: number;
   /** seconds since the run began; on a bus without one, since it was connected */
   t: number;
+  /** 0: not known, it is of a run that was run again */
   wall: number;
   kind: 'event' | 'state' | 'fault' | 'appeared' | 'gone' | 'loaded' | 'plan' | 'lost';
   node: number;
@@ -434,6 +435,60 @@ export interface WhyLink {
   element?: string;
   /** nothing in the run came before it */
   root: boolean;
+}
+
+/** How far the search for a turning point is. */
+export interface TurningProgress {
+  /** the run as it was; continuations from instants over all of it; from those in between; two of them are recorded */
+  stage: 'run' | 'curve' | 'narrowing' | 'recordings';
+  /** continuations */
+  done: number;
+  of: number;
+}
+
+/** An instant from which a run was continued with other seeds. */
+export interface TurningPoint {
+  t: number;
+  /** continuations from there in which the condition became true */
+  came: number;
+  /** of so many */
+  of: number;
+  /** of the chance that this says, with 95 % confidence */
+  low: number;
+  high: number;
+  /** nothing was continued there: all is known */
+  end: boolean;
+}
+
+/** Where it turned whether a condition becomes true. */
+export interface Turn {
+  /** the last instant at which it was open */
+  before: TurningPoint;
+  /** the first at which it was not */
+  after: TurningPoint;
+  /** they are a millisecond apart; else it changed little by little in between */
+  narrowed: boolean;
+  /** the recording of a continuation in which it became true; missing: there was none */
+  with?: Path;
+  /** of one in which it did not */
+  without?: Path;
+  /** what there was where it turned */
+  there: WhyLink[];
+}
+
+/** When it was decided whether a condition becomes true. */
+export interface Turning {
+  sentence: string;
+  /** when it became true in the run itself; missing: it did not */
+  came?: number;
+  /** until then the run was looked at */
+  end: number;
+  /** in all */
+  continuations: number;
+  /** by time */
+  curve: TurningPoint[];
+  /** missing: chance did not decide it */
+  turn?: Turn;
 }
 
 /** One thing of two runs, followed until they differ. */
@@ -1736,6 +1791,10 @@ export interface Commands {
     ranges?: Json[];
     /** so many of the last happenings until then */
     events?: number;
+    /** where sensors looked, and lamps, are asked for */
+    rays?: boolean;
+    /** the robot whose camera is asked for */
+    picture?: string;
     trace?: Path;
   }; out: {
     run: number;
@@ -1757,6 +1816,12 @@ export interface Commands {
     events: Happening[];
     /** missing: thinned out, up to 0.2 s older than asked */
     exact?: boolean;
+    /** base64: a payload of the topic rays */
+    rays?: string;
+    /** base64: a payload of the topic picture; missing: none of the last 5 s was kept */
+    picture?: string;
+    /** when it was taken */
+    picture_t?: number;
   } };
   /** What a timeline draws of a span of time: what falls into one of its pixels is merged. */
   'history.lanes': { in: {
@@ -1835,6 +1900,15 @@ export interface Commands {
     /** the newest first */
     chain: WhyLink[];
   } };
+  /** When it was decided that a condition becomes true in the run that is shown, or does not: the run is continued again and again with other seeds, in processes of their own, beside whatever runs. The topic turning tells what comes of it. One question at a time. */
+  'turning.ask': { in: {
+    /** as in tests of behaviour */
+    condition: string;
+    /** continuations from each instant; missing: 20 */
+    tries?: number;
+  }; out: Record<never, never> };
+  /** Ends the search of turning.ask. */
+  'turning.stop': { in: Record<never, never>; out: Record<never, never> };
   /** What variables held each time that a line of a script or an element of the plan was reached in the run that is shown: it is run again from its recording, all of it, which changes nothing. Of a run that goes on there is what is recorded by now. */
   'log.ask': { in: {
     /** for log.cancel, of the client's choice */
@@ -2122,6 +2196,18 @@ export interface Topics {
     /** older events are not kept */
     events_from?: number;
   } };
+  /** What turning.ask was asked last, and what has come of it. */
+  'turning': { kind: 'document'; of: Record<never, never>; is: {
+    state: 'none' | 'running' | 'done' | 'stopped' | 'failed';
+    /** of the topic history: the one that it was asked of */
+    run?: number;
+    condition?: string;
+    tries?: number;
+    progress?: TurningProgress;
+    /** why it failed */
+    why?: string;
+    result?: Turning;
+  } };
   /** Tests of behaviour that are run, or were run last. */
   'tests': { kind: 'document'; of: Record<never, never>; is: {
     state: 'none' | 'running' | 'done' | 'stopped' | 'failed';
@@ -2195,7 +2281,7 @@ export interface Topics {
   } };
   /** Where things are. Payload: u16 robots, u16 objects; for each robot f32 x, y, angle; for each object that moves u32 number, f32 x, y, angle. Robots in the order of scene. */
   'poses': { kind: 'binary'; of: Record<never, never> };
-  /** Looks of distance sensors, and lamps. Payload: u16 looks, u16 lamps; looks: u16 robot, u16 hit, f32 x, y, x, y; lamps: u16 robot, u16 0, f32 x, y in the frame of the robot, f32 red, green, blue. */
+  /** Looks of distance sensors, and lamps, in the frame of their robot (x ahead, y to the left). Payload: u16 looks, u16 lamps; looks: u16 robot, u16 hit, f32 x, y, x, y; lamps: u16 robot, u16 0, f32 x, y, f32 red, green, blue. */
   'rays': { kind: 'binary'; of: Record<never, never> };
   /** What a camera sees. Payload: u16 width, u16 height, RGB bytes. */
   'picture': { kind: 'binary'; of: {
@@ -2254,6 +2340,10 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   HistoryWords: { node: 'NodeId', address: 'int(0..65535)', words: '[json; 20000]' },
   HistoryNode: { node: 'NodeId', state: 'line(32)', line: 'int(1..10000000)?' },
   WhyLink: { t: 'number', what: 'line(1000)', value: 'line(1000)', place: 'line(1200)', doc: 'Doc?', line: 'int(1..10000000)?', element: 'line(256)?', root: 'bool' },
+  TurningProgress: { stage: 'word(run|curve|narrowing|recordings)', done: 'number', of: 'number' },
+  TurningPoint: { t: 'number', came: 'number', of: 'number', low: 'number', high: 'number', end: 'bool' },
+  Turn: { before: 'TurningPoint', after: 'TurningPoint', narrowed: 'bool', with: 'Path?', without: 'Path?', there: '[WhyLink; 1001]' },
+  Turning: { sentence: 'line(400)', came: 'number?', end: 'number', continuations: 'number', curve: '[TurningPoint; 33]', turn: 'Turn?' },
   ComparedLane: { name: 'line(256)', compared: 'number', t: 'number?', place: 'line(1000)?', a: 'line(1000)?', b: 'line(1000)?' },
   ComparedRun: { path: 'line(1024)', start: 'number', end: 'number', complete: 'bool', actors: '[ComparedActor; 5000]', events: '[ComparedEvent; 5000]', ways: '[ComparedWay; 64]', more: 'number' },
   ComparedActor: { name: 'line(256)', level: 'int(0..1000)', from: 'number', to: 'number' },
@@ -2407,7 +2497,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'plan.break.set': { may: 'driver', kind: 'edit', out: { number: 'number' } },
   'plan.break.clear': { may: 'driver', kind: 'edit', out: {} },
   'plan.set': { may: 'driver', kind: 'act', out: {} },
-  'history.at': { may: 'look', kind: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?' } },
+  'history.at': { may: 'look', kind: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?', rays: 'text(1400000)?', picture: 'text(300000)?', picture_t: 'number?' } },
   'history.lanes': { may: 'look', kind: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
@@ -2418,6 +2508,8 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'tests.run': { may: 'driver', kind: 'act', out: {} },
   'tests.stop': { may: 'driver', kind: 'edit', out: {} },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },
+  'turning.ask': { may: 'driver', kind: 'act', out: {} },
+  'turning.stop': { may: 'driver', kind: 'edit', out: {} },
   'log.ask': { may: 'look', kind: 'look', out: { names: '[line(1000); 16]', hits: '[LogHit; 5000]', more: 'number', until: 'number', text: 'line(1000)' } },
   'runs.compare': { may: 'look', kind: 'look', out: { a: 'ComparedRun', b: 'ComparedRun', lanes: '[ComparedLane; 1000]', started: '[StartedApart; 1000]', scene: '[ComparedShape; 2000]' } },
   'log.cancel': { may: 'look', kind: 'look', out: {} },
@@ -2450,6 +2542,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'end': { kind: 'document', is: { end: 'RunEnd?', open: 'bool' } },
   'plan': { kind: 'document', is: { state: 'word(none|running|paused|ended)', doc: 'Doc?', t: 'number', result: 'word(OK|Interrupted|Error)?', message: 'text(2000)?', stands_at: '[number; 1000]?', levels: '[PlanLevel; 64]', story: '[Line; 200]', change: 'PlanChange?' } },
   'history': { kind: 'document', is: { run: 'number', kind: 'word(none|simulated|bus|trace)', name: 'line(1024)', from: 'number', to: 'number', fine_from: 'number?', plan_from: 'number?', events_from: 'number?' } },
+  'turning': { kind: 'document', is: { state: 'word(none|running|done|stopped|failed)', run: 'number?', condition: 'line(1000)?', tries: 'number?', progress: 'TurningProgress?', why: 'line(2000)?', result: 'Turning?' } },
   'tests': { kind: 'document', is: { state: 'word(none|running|done|stopped|failed)', why: 'line(2000)?', runs: 'number', done: 'number', failed: 'number', scripts: 'bool', tests: '[TestRun; 1000]', coverage: '[CoverageRow; 2000]', changed: '[Path; 2000]' } },
   'coverage': { kind: 'document', is: { changed: 'bool', plan: 'PlanCoverage?', lines: '[LineCoverage; 65536]?' } },
   'state': { kind: 'document', is: { values: 'json' } },

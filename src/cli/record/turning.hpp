@@ -1,5 +1,4 @@
-// `vagus why FILE --turning-point CONDITION`: when something was decided (trial/turning.hpp), with
-// each continuation in a process of its own.
+// `vagus why FILE --turning-point CONDITION`: when something was decided (turning_search.hpp).
 //
 //     CLI::Option* const turning = add_turning_options(verb, options);
 //     exit_code = tell_turning(options);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "serve/bytes.hpp"
+#include "serve/follow/sights.hpp"
 
 namespace vagus::serve {
 
@@ -34,6 +35,18 @@ struct Taker {
     }
 };
 
+bool take_sight(Taker& from, RecordItem& item, size_t each) {
+    item.robot = from.one<uint16_t>();
+    item.bytes = from.some(from.one<uint16_t>() * each);
+    return from.ok;
+}
+
+void append_sight(std::string& to, uint16_t robot, std::string_view bytes, size_t each) {
+    append(to, robot);
+    append(to, static_cast<uint16_t>(bytes.size() / each));
+    to.append(bytes);
+}
+
 bool take_item(Taker& from, RecordItem& item) {
     item.kind = static_cast<RecordItem::Kind>(from.one<uint8_t>());
     switch (item.kind) {
@@ -50,6 +63,10 @@ bool take_item(Taker& from, RecordItem& item) {
             item.y = from.one<float>();
             item.angle = from.one<float>();
             return from.ok;
+        case RecordItem::Kind::Looks:
+            return take_sight(from, item, kLookBytes);
+        case RecordItem::Kind::Lamps:
+            return take_sight(from, item, kLampBytes);
     }
     return false;
 }
@@ -104,6 +121,18 @@ void RecordWriter::pose(uint32_t key, float x, float y, float angle) {
     append(bytes_, x);
     append(bytes_, y);
     append(bytes_, angle);
+}
+
+void RecordWriter::looks(uint16_t robot, std::string_view bytes) {
+    items_ = true;
+    append(bytes_, RecordItem::Kind::Looks);
+    append_sight(bytes_, robot, bytes, kLookBytes);
+}
+
+void RecordWriter::lamps(uint16_t robot, std::string_view bytes) {
+    items_ = true;
+    append(bytes_, RecordItem::Kind::Lamps);
+    append_sight(bytes_, robot, bytes, kLampBytes);
 }
 
 std::string RecordWriter::take() {

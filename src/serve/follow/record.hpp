@@ -1,4 +1,5 @@
-// What changed in a world between two instants, as bytes: words of nodes, and where things are.
+// What changed in a world between two instants, as bytes: words of nodes, where things are, where
+// sensors look.
 // The runner writes them, the history keeps them as they are.
 //
 //     RecordWriter writer;
@@ -23,6 +24,7 @@ constexpr uint32_t kRobotKey = 0x8000'0000;
 // node, in hundredths of a percent.
 constexpr uint16_t kLoadNode = 0xffff;
 constexpr uint16_t kLoadUnit = 100;
+constexpr size_t kSightRobotsMax = 256;     // robots whose looks and lamps are written, and kept
 constexpr size_t kRecordedNodesMax = 2048;  // nodes whose words are written, and kept
 
 struct Standing {
@@ -38,6 +40,9 @@ public:
     // Nobody knows these words any more.
     void forget(uint16_t node, uint16_t address, uint16_t count);
     void pose(uint32_t key, float x, float y, float angle);
+    // What is drawn of a robot beside its pose (sights.hpp): all its looks, or all its lamps.
+    void looks(uint16_t robot, std::string_view bytes);
+    void lamps(uint16_t robot, std::string_view bytes);
     // The instant has something to tell; one without is left out.
     bool has_items() const { return items_; }
     size_t size() const { return bytes_.size(); }
@@ -52,11 +57,19 @@ private:
 };
 
 struct RecordItem {
-    enum class Kind : uint8_t { Words = 'W', Forgotten = 'F', Pose = 'P' };
+    enum class Kind : uint8_t {
+        Words = 'W',
+        Forgotten = 'F',
+        Pose = 'P',
+        Looks = 'L',
+        Lamps = 'B'
+    };
     double t = 0;
     Kind kind = Kind::Words;
     uint16_t node = 0, address = 0, count = 0;
     std::string_view values;  // Words: count times 16 bit, little endian
+    uint16_t robot = 0;       // of Looks and Lamps: its index in the scene
+    std::string_view bytes;   // the same, whole ones
     uint32_t key = 0;
     float x = 0, y = 0, angle = 0;
 

@@ -8,14 +8,13 @@ namespace vagus::serve {
 
 namespace {
 
-Json happening_of(const PastEvent& event, uint64_t number) {
-    return {{"number", number},   {"t", event.t},       {"wall", event.wall},
-            {"kind", event.kind}, {"node", event.node}, {"source", event.source},
-            {"name", event.name}, {"args", event.args}, {"text", event.text}};
+size_t bytes_of(const Happened& event) {
+    return sizeof(Happened) + event.kind.size() + event.source.size() + event.name.size() +
+           event.text.size() + event.args.size() * sizeof(int16_t);
 }
 
 // Marks of one pixel become one at once, so that a flood makes no long list.
-void add_mark(std::deque<Mark>& marks, const PastEvent& event, double pixel) {
+void add_mark(std::deque<Mark>& marks, const Happened& event, double pixel) {
     const bool joins = !marks.empty() && event.t - marks.back().t < pixel;
     if (!joins) return marks.push_back({event.t, event.name});
     ++marks.back().count;
@@ -24,21 +23,17 @@ void add_mark(std::deque<Mark>& marks, const PastEvent& event, double pixel) {
 
 }  // namespace
 
-size_t PastEvent::bytes() const {
-    return sizeof(PastEvent) + kind.size() + source.size() + name.size() + text.size() +
-           args.size() * sizeof(int16_t);
-}
-
-void EventPast::add(PastEvent event) {
+void EventPast::add(Happened event) {
     event.t = to_ = std::max(to_, event.t);
-    bytes_ += event.bytes();
+    if (event.kind == "state") note_state(event);
+    bytes_ += bytes_of(event);
     events_.push_back(std::move(event));
     const auto full = [&] {
         return events_.size() > kPastEvents || bytes_ > kPastEventBytes ||
                events_.front().t < to_ - kPastEventSeconds;
     };
     while (events_.size() > 1 && full()) {
-        bytes_ -= events_.front().bytes();
+        bytes_ -= bytes_of(events_.front());
         events_.pop_front();
         ++first_;
     }
@@ -46,7 +41,7 @@ void EventPast::add(PastEvent event) {
 
 void EventPast::cut(double t) {
     while (!events_.empty() && events_.back().t >= t) {
-        bytes_ -= events_.back().bytes();
+        bytes_ -= bytes_of(events_.back());
         events_.pop_back();
     }
     for (auto& [node, states] : states_) {
@@ -58,11 +53,12 @@ void EventPast::cut(double t) {
 Json EventPast::until(double t, size_t most) const {
     const auto end =
         std::upper_bound(events_.begin(), events_.end(), t,
-                         [](double instant, const PastEvent& event) { return instant < event.t; });
+                         [](double instant, const Happened& event) { return instant < event.t; });
     const auto count = static_cast<size_t>(end - events_.begin());
     Json list = Json::array();
     for (size_t i = count - std::min(count, most); i < count; ++i) {
-        list.push_back(happening_of(events_[i], first_ + i));
+        list.push_back(happening_json(events_[i]));
+        list.back()["number"] = first_ + i;
     }
     return list;
 }
@@ -71,7 +67,7 @@ std::vector<Json> EventPast::lanes(const LaneWindow& window, size_t& left_out) c
     std::map<std::string, Lane> lanes;
     auto event =
         std::lower_bound(events_.begin(), events_.end(), window.from,
-                         [](const PastEvent& one, double instant) { return one.t < instant; });
+                         [](const Happened& one, double instant) { return one.t < instant; });
     for (; event != events_.end() && event->t <= window.to; ++event) {
         if (event->kind != "event") continue;
         if (!lanes.contains(event->source) && lanes.size() >= kEventLanesMax) {
@@ -89,10 +85,10 @@ std::vector<Json> EventPast::lanes(const LaneWindow& window, size_t& left_out) c
     return found;
 }
 
-void EventPast::node_state(double t, uint16_t node, const std::string& state, int line) {
-    if (!states_.contains(node) && states_.size() >= kNodesKept) return;
-    std::deque<NodeState>& states = states_[node];
-    states.push_back({t, state, line});
+void EventPast::note_state(const Happened& event) {
+    if (!states_.contains(event.node) && states_.size() >= kNodesKept) return;
+    std::deque<NodeState>& states = states_[event.node];
+    states.push_back({event.t, event.name, event.line});
     if (states.size() > kNodeStatesKept) states.pop_front();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "serve/history/lane.hpp"
+#include "serve/target/happened.hpp"
 
 namespace vagus::serve {
 
@@ -20,19 +21,10 @@ constexpr size_t kEventLanesMax = 64;     // sources of events that a timeline s
 constexpr size_t kNodeStatesKept = 5000;  // of a node
 constexpr size_t kNodesKept = 2048;
 
-struct PastEvent {
-    double t = 0, wall = 0;
-    std::string kind = {};
-    uint16_t node = 0;
-    std::string source = {}, name = {}, text = {};
-    std::vector<int16_t> args = {};
-    size_t bytes() const;
-};
-
 class EventPast {
 public:
     // In the order of time; one that goes back is taken for the newest instant.
-    void add(PastEvent event);
+    void add(Happened event);
     // As if nothing had been told from that instant on.
     void cut(double t);
     // The last ones until then: Happening of the protocol.
@@ -40,7 +32,6 @@ public:
     // One lane for each source of events: HistoryLane. What has no room is counted.
     std::vector<nlohmann::json> lanes(const LaneWindow& window, size_t& left_out) const;
 
-    void node_state(double t, uint16_t node, const std::string& state, int line);
     // HistoryNode of the protocol, of the nodes that had said something by then.
     nlohmann::json nodes_at(double t) const;
 
@@ -55,9 +46,11 @@ private:
     struct NodeState {
         double t = 0;
         std::string state;
-        int line = 0;
+        uint32_t line = 0;
     };
-    std::deque<PastEvent> events_;
+    void note_state(const Happened& event);
+
+    std::deque<Happened> events_;
     uint64_t first_ = 0;  // number of the oldest one kept
     size_t bytes_ = 0;
     double to_ = 0;

@@ -1,5 +1,6 @@
 #include "serve/history/history.hpp"
 
+#include "base/base64.hpp"
 #include "serve/json.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ void History::end() {
     plan_.reset();
     tape_ = {};
     events_ = {};
+    pictures_ = {};
     passed_ = 0;
 }
 
@@ -52,6 +54,7 @@ void History::continue_from(double t, uint64_t run) {
     if (plan_) plan_->cut(t);
     tape_.cut(t);
     events_.cut(t);
+    pictures_.cut(t);
     passed_ = t;
 }
 
@@ -131,6 +134,16 @@ Json History::values_at(const TapeState& state, const std::vector<Range>& ranges
     return values;
 }
 
+// As the topics rays and picture have them.
+void History::add_sights(Json& found, const TapeState& state, const Instant& instant) const {
+    if (instant.rays) found["rays"] = base64(state.rays());
+    if (instant.picture.empty()) return;
+    const KeptPicture* const picture = pictures_.at(instant.t, instant.picture);
+    if (picture == nullptr) return;
+    found["picture"] = base64(picture->bytes);
+    found["picture_t"] = picture->t;
+}
+
 Json History::at(const Instant& instant) const {
     const double t = std::clamp(instant.t, 0.0, std::max(0.0, to()));
     const TapeState state = tape_.at(t);
@@ -142,6 +155,7 @@ Json History::at(const Instant& instant) const {
                   {"nodes", events_.nodes_at(t)}};
     found.update(things_json(state));
     if (tape_.empty() || t >= tape_.fine_from()) found["exact"] = true;
+    add_sights(found, state, {.t = t, .rays = instant.rays, .picture = instant.picture});
     if (plan_) {
         found["plan"] = plan_->at(t);
         if (const auto next = plan_->next_step(t)) found["next"] = *next;

@@ -1,6 +1,6 @@
 // All that is kept of a run, or of a trace that was opened: what the plan did, what happened on the
-// bus, what variables were, where things were. It is told the time with everything it is told, and
-// answers for any instant and for any window of time.
+// bus, what variables were, where things were, what sensors and cameras saw. It is told the time
+// with everything it is told, and answers for any instant and for any window of time.
 //
 //     History history;
 //     history.begin({.kind = "simulated", .name = "WallFollow"});
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "serve/history/event_past.hpp"
+#include "serve/history/picture_past.hpp"
 #include "serve/history/plan_past.hpp"
 #include "serve/history/tape.hpp"
 #include "serve/json.hpp"
@@ -52,10 +53,8 @@ public:
     // What the next lines of the trace are of: the first version of a plan, or the one that took
     // over. One that was told already changes nothing.
     void plan(uint64_t version, PlanPast::Plans plans);
-    void happen(PastEvent event) { events_.add(std::move(event)); }
-    void node_state(double t, uint16_t node, const std::string& state, int line) {
-        events_.node_state(t, node, state, line);
-    }
+    void picture(KeptPicture picture) { pictures_.add(std::move(picture)); }
+    void happen(Happened event) { events_.add(std::move(event)); }
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);
     void forget(double t, uint16_t node, uint16_t address, uint16_t count);
     // Time has passed, and nothing happened.
@@ -69,6 +68,8 @@ public:
         double t = 0;
         std::vector<Range> ranges = {};
         size_t events = 0;
+        bool rays = false;         // where sensors looked, and lamps
+        std::string picture = {};  // of the camera of that robot; empty: none is asked for
     };
     struct Word {
         uint16_t node = 0, address = 0;
@@ -97,6 +98,7 @@ public:
 
 private:
     double from() const;
+    void add_sights(Json& found, const TapeState& state, const Instant& instant) const;
     Json values_at(const TapeState& state, const std::vector<Range>& ranges) const;
     Json curve(const Word& word, const Window& window) const;
     Json loads(const Window& window) const;
@@ -108,6 +110,7 @@ private:
     std::unique_ptr<PlanPast> plan_;
     Tape tape_;
     EventPast events_;
+    PicturePast pictures_;
     double passed_ = 0;
 };
 

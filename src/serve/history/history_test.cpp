@@ -5,7 +5,9 @@
 
 #include <array>
 
+#include "base/base64.hpp"
 #include "plan/file.hpp"
+#include "serve/follow/sights.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
@@ -230,10 +232,116 @@ TEST(EventPast, DenseEventsAreARunAndFewAreMarks) {
               Json::array({{{"t", 50.0}, {"name", "a"}}, {{"t", 80.0}, {"count", 2}}}));
 }
 
+// ---- what sensors and cameras saw ----
+
+std::string looks(double t, uint16_t robot, size_t count, char byte) {
+    RecordWriter writer;
+    writer.begin(t);
+    writer.looks(robot, std::string(count * kLookBytes, byte));
+    return writer.take();
+}
+
+TEST(Tape, LooksAndLampsOfAnInstantAreThePayloadOfTheTopic) {
+    Tape tape;
+    RecordWriter writer;
+    writer.begin(1);
+    writer.looks(1, std::string(2 * kLookBytes, 'b'));
+    writer.lamps(0, std::string(kLampBytes, 'x'));
+    ASSERT_TRUE(tape.record(writer.take()));
+    ASSERT_TRUE(tape.record(looks(2, 0, 1, 'a')));
+    ASSERT_TRUE(tape.record(looks(3, 1, 1, 'c')));
+    const std::string none(4, '\0');
+    EXPECT_EQ(tape.at(0.5).rays(), none);
+    // Two looks and a lamp; then those of robot 0 come before those of robot 1.
+    EXPECT_EQ(tape.at(1).rays(), std::string("\2\0\1\0", 4) + std::string(2 * kLookBytes, 'b') +
+                                     std::string(kLampBytes, 'x'));
+    EXPECT_EQ(tape.at(2.5).rays(), std::string("\3\0\1\0", 4) + std::string(kLookBytes, 'a') +
+                                       std::string(2 * kLookBytes, 'b') +
+                                       std::string(kLampBytes, 'x'));
+    EXPECT_EQ(tape.at(3).rays(), std::string("\2\0\1\0", 4) + std::string(kLookBytes, 'a') +
+                                     std::string(kLookBytes, 'c') + std::string(kLampBytes, 'x'));
+    tape.cut(2);
+    EXPECT_EQ(tape.at(3).rays(), tape.at(1).rays());
+}
+
+// One more than have room is left out; what is thinned out keeps its looks.
+TEST(Tape, LooksAreKeptOfSoManyRobotsAndThroughThinning) {
+    Tape tape;
+    for (size_t robot = 0; robot <= kSightRobotsMax; ++robot) {
+        ASSERT_TRUE(tape.record(looks(1, static_cast<uint16_t>(robot), 1, 'a')));
+    }
+    EXPECT_EQ(tape.at(1).rays().size(), 4 + kSightRobotsMax * kLookBytes);
+    ASSERT_TRUE(tape.record(looks(1.5, 0, 1, 'z')));
+    const std::string then = tape.at(2).rays();
+    ASSERT_TRUE(tape.record(one(2 + kTapeFineSeconds + 2 * kTapeBlockSeconds, 1, 7, 3)));
+    ASSERT_GT(tape.fine_from(), 2);
+    EXPECT_EQ(tape.at(2).rays(), then);
+}
+
+TEST(PicturePast, ThePictureOfAnInstantIsTheLastOneAndNotAnOldOne) {
+    PicturePast past;
+    past.add({.t = 1, .robot = "a", .bytes = "1"});
+    past.add({.t = 2, .robot = "b", .bytes = "2"});
+    past.add({.t = 3, .robot = "a", .bytes = "3"});
+    const auto seen = [&past](double t, const std::string& robot) {
+        const KeptPicture* const found = past.at(t, robot);
+        return found == nullptr ? std::string() : found->bytes;
+    };
+    EXPECT_EQ(seen(0.9, "a"), "");
+    EXPECT_EQ(seen(1, "a"), "1");
+    EXPECT_EQ(seen(2.9, "a"), "1");
+    EXPECT_EQ(seen(2.9, "b"), "2");
+    EXPECT_EQ(seen(3 + kPictureHolds, "a"), "3");
+    EXPECT_EQ(seen(3.01 + kPictureHolds, "a"), "");
+    EXPECT_EQ(seen(3, "c"), "");
+    past.cut(3);
+    EXPECT_EQ(seen(3, "a"), "1");
+    EXPECT_EQ(past.bytes(), 2u);
+}
+
+TEST(PicturePast, WhatIsTooMuchIsThinnedOutFromTheOldEnd) {
+    PicturePast past;
+    const size_t fit = 8;
+    const std::string picture(kPastPictureBytes / fit, 'x');
+    for (size_t i = 0; i < fit; ++i) {
+        past.add({.t = static_cast<double>(i), .robot = "a", .bytes = picture});
+    }
+    EXPECT_EQ(past.count(), fit);
+    past.add({.t = 8, .robot = "a", .bytes = picture});
+    // Of 0 to 8 the older half are 0 to 4, of which 0, 2 and 4 go.
+    EXPECT_EQ(past.count(), 6u);
+    EXPECT_EQ(past.bytes(), 6 * picture.size());
+    EXPECT_EQ(past.at(0.5, "a"), nullptr);
+    EXPECT_EQ(past.at(2.5, "a")->t, 1);
+    EXPECT_EQ(past.at(4.5, "a")->t, 3);
+    EXPECT_EQ(past.at(8.5, "a")->t, 8);
+    past.add({.t = 1.5 + kPastPictureSeconds, .robot = "a", .bytes = "x"});
+    EXPECT_EQ(past.at(2.5, "a"), nullptr);
+    EXPECT_EQ(past.at(3.5, "a")->t, 3);
+}
+
+TEST(History, AnInstantHasWhatWasAskedForOfSensorsAndCameras) {
+    History history;
+    history.begin({.kind = "simulated"});
+    ASSERT_TRUE(history.record(looks(1, 0, 1, 'a')));
+    history.picture({.t = 1, .robot = "carbot", .bytes = "abc"});
+    const Json plain = history.at({.t = 1});
+    EXPECT_FALSE(plain.contains("rays"));
+    EXPECT_FALSE(plain.contains("picture"));
+    const Json found = history.at({.t = 1, .rays = true, .picture = "carbot"});
+    EXPECT_EQ(from_base64(found["rays"].get<std::string>()),
+              std::string("\1\0\0\0", 4) + std::string(kLookBytes, 'a'));
+    EXPECT_EQ(found["picture"], "YWJj");
+    EXPECT_EQ(found["picture_t"], 1.0);
+    EXPECT_FALSE(history.at({.t = 1, .picture = "other"}).contains("picture"));
+    history.continue_from(0.5, 2);
+    EXPECT_FALSE(history.at({.t = 1, .picture = "carbot"}).contains("picture"));
+}
+
 TEST(EventPast, ANodeStandsWhereItSaidLast) {
     EventPast past;
-    past.node_state(1, 3, "running", 0);
-    past.node_state(2, 3, "paused", 12);
+    past.add({.t = 1, .kind = "state", .node = 3, .name = "running"});
+    past.add({.t = 2, .kind = "state", .node = 3, .name = "paused", .line = 12});
     EXPECT_EQ(past.nodes_at(0.5), Json::array());
     EXPECT_EQ(past.nodes_at(1.5), Json::array({{{"node", 3}, {"state", "running"}}}));
     EXPECT_EQ(past.nodes_at(2), Json::array({{{"node", 3}, {"state", "paused"}, {"line", 12}}}));
@@ -391,7 +499,11 @@ void tell_walk(History& history, double from, double until) {
         EXPECT_TRUE(history.record(one(t, 1, 7, word)));
         EXPECT_TRUE(history.record(stand(t, 0, 0.1F * static_cast<float>(i), 0)));
         history.happen({.t = t, .kind = "event", .node = 1, .source = "drive", .name = "beat"});
-        history.node_state(t, 1, i % 3 == 0 ? "running" : "paused", i);
+        history.happen({.t = t,
+                        .kind = "state",
+                        .node = 1,
+                        .name = i % 3 == 0 ? "running" : "paused",
+                        .line = static_cast<uint32_t>(i)});
     }
 }
 

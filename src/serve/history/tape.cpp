@@ -3,17 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "serve/follow/sights.hpp"
+
 namespace vagus::serve {
 
 // ---- one instant ----
 
 void TapeState::apply(const RecordItem& item) {
-    if (item.kind == RecordItem::Kind::Pose) {
-        if (things_.contains(item.key) || things_.size() < kTapeThingsMax) {
+    switch (item.kind) {
+        case RecordItem::Kind::Pose:
+            if (!things_.contains(item.key) && things_.size() >= kTapeThingsMax) return;
             things_[item.key] = {item.x, item.y, item.angle};
-        }
-        return;
+            return;
+        case RecordItem::Kind::Looks:
+        case RecordItem::Kind::Lamps:
+            return apply_sight(item);
+        case RecordItem::Kind::Words:
+        case RecordItem::Kind::Forgotten:
+            return apply_words(item);
     }
+}
+
+void TapeState::apply_sight(const RecordItem& item) {
+    if (!sights_.contains(item.robot) && sights_.size() >= kSightRobotsMax) return;
+    Sights& sights = sights_[item.robot];
+    (item.kind == RecordItem::Kind::Looks ? sights.looks : sights.lamps) = item.bytes;
+}
+
+void TapeState::apply_words(const RecordItem& item) {
     if (!nodes_.contains(item.node) && nodes_.size() >= kRecordedNodesMax) return;
     Words& words = nodes_[item.node];
     const size_t end = size_t{item.address} + item.count;
@@ -28,6 +45,15 @@ void TapeState::apply(const RecordItem& item) {
     }
 }
 
+std::string TapeState::rays() const {
+    std::string looks, lamps;
+    for (const auto& [robot, sights] : sights_) {
+        looks += sights.looks;
+        lamps += sights.lamps;
+    }
+    return rays_payload(looks, lamps);
+}
+
 std::optional<int16_t> TapeState::word(uint16_t node, uint16_t address) const {
     const auto found = nodes_.find(node);
     if (found == nodes_.end() || address >= found->second.values.size()) return std::nullopt;
@@ -38,6 +64,9 @@ std::optional<int16_t> TapeState::word(uint16_t node, uint16_t address) const {
 size_t TapeState::bytes() const {
     size_t sum = things_.size() * (sizeof(uint32_t) + sizeof(Standing));
     for (const auto& [node, words] : nodes_) sum += sizeof(Words) + words.values.size() * 2;
+    for (const auto& [robot, sights] : sights_) {
+        sum += sizeof(Sights) + sights.looks.size() + sights.lamps.size();
+    }
     return sum;
 }
 
@@ -47,6 +76,13 @@ void TapeState::write_since(const TapeState& before, RecordWriter& writer) const
         const auto then = before.things_.find(key);
         if (then != before.things_.end() && then->second == standing) continue;
         writer.pose(key, standing.x, standing.y, standing.angle);
+    }
+    static const Sights kNone;
+    for (const auto& [robot, sights] : sights_) {
+        const auto found = before.sights_.find(robot);
+        const Sights& then = found == before.sights_.end() ? kNone : found->second;
+        if (then.looks != sights.looks) writer.looks(robot, sights.looks);
+        if (then.lamps != sights.lamps) writer.lamps(robot, sights.lamps);
     }
 }
 
@@ -264,8 +300,9 @@ std::vector<Tape::Column> Tape::columns(uint16_t node, uint16_t address,
         each_record(block->bytes,
                     {[](double, std::string_view) {},
                      [&](const RecordItem& item) {
-                         const bool other = item.kind == RecordItem::Kind::Pose ||
-                                            item.node != node || address < item.address ||
+                         const bool word = item.kind == RecordItem::Kind::Words ||
+                                           item.kind == RecordItem::Kind::Forgotten;
+                         const bool other = !word || item.node != node || address < item.address ||
                                             address >= item.address + item.count ||
                                             item.t <= window.from || item.t > window.to;
                          if (other) return;

@@ -1,4 +1,4 @@
-// What the words of nodes were, and where things were, at any instant of a run: changes in blocks
+// What words of nodes were, where things were and sensors looked, at any instant: changes in blocks
 // of some seconds, each of which begins with the whole. The newest are kept as they came; older
 // ones are thinned out, the oldest dropped: by age, and by bytes.
 //
@@ -42,16 +42,25 @@ public:
     std::optional<int16_t> word(uint16_t node, uint16_t address) const;
     const std::map<uint16_t, Words>& nodes() const { return nodes_; }
     const std::map<uint32_t, Standing>& things() const { return things_; }
+    // The payload of the topic rays.
+    std::string rays() const;
     size_t bytes() const;
     // Writes what leads from that state to this one.
     void write_since(const TapeState& before, RecordWriter& writer) const;
 
 private:
+    void apply_sight(const RecordItem& item);
+    void apply_words(const RecordItem& item);
     void write_words(uint16_t node, const Words& words, const TapeState& before,
                      RecordWriter& writer) const;
 
+    // As bytes of the topic rays.
+    struct Sights {
+        std::string looks, lamps;
+    };
     std::map<uint16_t, Words> nodes_;
     std::map<uint32_t, Standing> things_;
+    std::map<uint16_t, Sights> sights_;  // by the index of a robot
 };
 
 class Tape {

@@ -89,11 +89,14 @@ public:
         breakpoints_told_ = std::move(told);
     }
     // What it tells for the history: which plan runs from now on, once for each version; a line of
-    // the trace; records of the world.
+    // the trace; records of the world; what happened on its bus
+    // while its past was run again; what a camera saw.
     struct Told {
         std::function<void(const talk::PlanVersion& version)> plan = [](auto&) {};
         std::function<void(const std::string& line)> trace = [](auto&) {};
         std::function<void(const std::string& bytes)> records = [](auto&) {};
+        std::function<void(const Happened& happened)> happened = [](auto&) {};
+        std::function<void(const talk::PictureThen& picture)> picture = [](auto&) {};
     };
     void on_told(Told told) { told_ = std::move(told); }
     // Its process has died, whatever ran in it: a sentence.
@@ -244,6 +247,8 @@ private:
     void hear(talk::Rays& rays) { flows_.show(std::move(rays)); }
     void hear(talk::Picture& picture) { flows_.show(std::move(picture)); }
     void hear(const talk::Records& records) { told_.records(records.bytes.bytes); }
+    void hear(const talk::HappenedNow& happened);
+    void hear(const talk::PictureThen& picture) { told_.picture(picture); }
     void hear_end(const std::string& what);
     void be_over(const std::string& what);
 

@@ -143,6 +143,10 @@ void Run::hear(const talk::FrameSeen& seen) {
     frames_.push_back({seen.frame.frame, seen.t});
 }
 
+void Run::hear(const talk::HappenedNow& happened) {
+    for (const talk::HappenedOne& one : happened.list) told_.happened(one.what);
+}
+
 // ---- its end ----
 
 // What it told last is known to the moment, but for the clock: that is a tenth of a second old.

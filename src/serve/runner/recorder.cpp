@@ -5,17 +5,20 @@
 #include <cmath>
 #include <utility>
 
+#include "serve/runner/scene.hpp"
+
 namespace vagus::serve {
 
 void Recorder::begin() {
     forget();
-    next_ = next_load_ = Time{};
+    next_ = next_load_ = next_sight_ = Time{};
 }
 
 void Recorder::forget() {
     (void)writer_.take();
     words_.clear();
     things_.clear();
+    sights_.clear();
 }
 
 void Recorder::look(const sim::World& world) {
@@ -26,6 +29,7 @@ void Recorder::look(const sim::World& world) {
     writer_.begin(seconds_of(world.now()));
     look_at_nodes(world);
     look_at_things(world);
+    look_at_sights(world);
     look_at_loads(world);
     if (whole) whole_ = writer_.size();
 }
@@ -76,6 +80,25 @@ void Recorder::see(uint32_t key, const Standing& standing) {
     if (before != things_.end() && before->second == standing) return;
     things_[key] = standing;
     writer_.pose(key, standing.x, standing.y, standing.angle);
+}
+
+// What is forgotten is told at once, with the words and poses that are told as a whole.
+void Recorder::look_at_sights(const sim::World& world) {
+    if (world.now() < next_sight_ && !sights_.empty()) return;
+    const auto robots = world.robots();
+    const auto slower =
+        static_cast<Duration::rep>((robots.size() + kSightRobots - 1) / kSightRobots);
+    next_sight_ = world.now() + kRecordEvery * slower;
+    uint16_t index = 0;
+    for (const sim::RobotView& robot : robots) {
+        if (index >= kSightRobotsMax) break;
+        auto& [looks, lamps] = sights_[index];
+        std::string looks_now = looks_of(world, robot, index);
+        std::string lamps_now = lamps_of(world, robot, index);
+        if (looks != looks_now) writer_.looks(index, looks = std::move(looks_now));
+        if (lamps != lamps_now) writer_.lamps(index, lamps = std::move(lamps_now));
+        ++index;
+    }
 }
 
 void Recorder::look_at_loads(const sim::World& world) {

@@ -1,11 +1,13 @@
 // Writes down what changes in a simulated world, for the history of the run: words of all nodes,
-// where things are, how busy the bus is. Changes only, at instants of simulated time; what the
+// where things are, where sensors look, how busy the bus is. Changes only, at instants of
+// simulated time; what the
 // server has no time for is left out, and the next record tells the whole again.
 #pragma once
 
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "serve/follow/record.hpp"
@@ -16,6 +18,7 @@ namespace vagus::serve {
 constexpr Duration kRecordEvery = std::chrono::milliseconds(20);
 constexpr Duration kLoadEvery = std::chrono::milliseconds(200);  // it costs more to know
 constexpr size_t kRecordedNodes = 32;  // at that pace; with more of them, less often
+constexpr size_t kSightRobots = 4;     // the same of robots, of which looks and lamps are written
 constexpr size_t kRecordsAtOnce = 64u << 10;
 constexpr size_t kRecordsMax = 1u << 20;  // bytes that wait for the server behind a whole world
 
@@ -38,6 +41,7 @@ private:
     void look_at_nodes(const sim::World& world);
     void look_at_things(const sim::World& world);
     void look_at_loads(const sim::World& world);
+    void look_at_sights(const sim::World& world);
     void see(uint16_t node, std::span<const int16_t> words);
     void see(uint32_t key, const Standing& standing);
 
@@ -45,7 +49,8 @@ private:
     size_t whole_ = 0;  // bytes of the last record that told the whole
     std::map<uint16_t, std::vector<int16_t>> words_;
     std::map<uint32_t, Standing> things_;
-    Time next_{}, next_load_{};
+    std::map<uint16_t, std::pair<std::string, std::string>> sights_;  // looks and lamps
+    Time next_{}, next_load_{}, next_sight_{};
 };
 
 }  // namespace vagus::serve

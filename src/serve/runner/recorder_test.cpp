@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "serve/follow/sights.hpp"
 #include "serve/history/tape.hpp"
 
 namespace vagus::serve {
@@ -39,6 +40,52 @@ TEST(Recorder, TheWholeOfALargeWorldIsSentOnceAndNotGivenUp) {
     ASSERT_TRUE(tape.record(records));
     EXPECT_EQ(tape.at(0).nodes().size(), kMany);
     EXPECT_EQ(tape.at(0).things().size(), kMany);
+}
+
+// In the frame of its robot a look that hits nothing is the same wherever the robot is.
+TEST(Recorder, LooksAreWrittenWhenTheyChangeAndTurnWithTheirRobot) {
+    sim::World world = world_of(1);
+    const auto robot = world.find_robot("r0");
+    ASSERT_TRUE(robot);
+    ASSERT_TRUE(world.move(*robot, {{10, 10}, 0.5}).ok());
+    Recorder recorder;
+    recorder.begin();
+    recorder.look(world);
+    Tape tape;
+    ASSERT_TRUE(tape.record(recorder.take()));
+    const std::string free = tape.at(0).rays();
+    EXPECT_GT(free.size(), 4 + kLookBytes);
+    const auto items_after_move = [&](const sim::Pose& pose) {
+        std::string kinds;
+        EXPECT_TRUE(world.move(*robot, pose).ok());
+        for (int i = 0; i < 25; ++i) world.step(sim::kNodeStep);
+        recorder.look(world);
+        const std::string records = recorder.take();
+        EXPECT_TRUE(each_record(records, {.item = [&](const RecordItem& item) {
+                                    kinds += static_cast<char>(item.kind);
+                                }}));
+        EXPECT_TRUE(tape.record(records));
+        return kinds;
+    };
+    const std::string moved = items_after_move({{12, 7}, -1});
+    EXPECT_NE(moved.find('P'), std::string::npos);
+    EXPECT_EQ(moved.find('L'), std::string::npos) << moved;
+    // Before the border of the world, ahead of it, it sees something.
+    EXPECT_NE(items_after_move({{19.9, 7}, 0}).find('L'), std::string::npos);
+    EXPECT_NE(tape.at(1).rays(), free);
+    EXPECT_EQ(tape.at(1).rays().size(), free.size());
+}
+
+TEST(Recorder, LooksAreWrittenOfSoManyRobots) {
+    const sim::World world = world_of(kSightRobotsMax + 1);
+    Recorder recorder;
+    recorder.begin();
+    recorder.look(world);
+    size_t robots = 0;
+    ASSERT_TRUE(each_record(recorder.take(), {.item = [&](const RecordItem& item) {
+                                robots += item.kind == RecordItem::Kind::Looks ? 1 : 0;
+                            }}));
+    EXPECT_EQ(robots, kSightRobotsMax);
 }
 
 TEST(Recorder, WhatIsGivenUpIsToldAsAWholeAgain) {

@@ -50,9 +50,12 @@ Status Reliving::begin(talk::Open& order) {
 void Reliving::enter(session::SimSession& session, hub::LinkId link) {
     session_ = &session;
     link_ = link;
-    while (past_ && next_ < past_->inputs.size() && past_->inputs[next_].turn == 0) {
-        do_again(past_->inputs[next_++]);
-    }
+    const auto is_before_run = [this] {
+        if (!past_ || next_ >= past_->inputs.size()) return false;
+        const record::Input& next = past_->inputs[next_];
+        return next.turn == 0 && next.at == Time{};
+    };
+    while (is_before_run()) do_again(past_->inputs[next_++]);
 }
 
 // The end of a plan is recorded at the end of the instant in which it ends.
@@ -87,10 +90,14 @@ void Reliving::do_again(const record::Input& input) {
         session_->hear_ahead();
     } else if (const auto* const script = std::get_if<record::ScriptLoaded>(&input.what)) {
         run_.recording.loaded(script->node, path_of(script->file), script->text);
+        run_.loaded(script->node);
     } else if (const auto* const request = std::get_if<run::Request>(&input.what)) {
         ask(*request);
     } else if (const auto* const files = std::get_if<record::PlanFiles>(&input.what)) {
         take(*files);
+    } else if (const auto* const drawn = std::get_if<record::Reseeded>(&input.what)) {
+        run_.recording.reseeded(drawn->seed);
+        run_.reseed(drawn->seed);
     } else if (std::holds_alternative<record::Aborted>(input.what)) {
         run_.abort();
     }

@@ -23,11 +23,13 @@ namespace vagus::serve {
 
 class Reliving {
 public:
-    // Borrowed. `abort` ends the plan, as a person did then.
+    // Borrowed. `abort` ends the plan, as a person did then; `loaded` is told what a person did.
     struct Run {
         PlanRunner& plan;
         RunRecording& recording;
         std::function<void()> abort;
+        std::function<void(uint16_t node)> loaded;  // with another program
+        std::function<void(uint64_t seed)> reseed;  // of all that is random
     };
     explicit Reliving(Run run) : run_(std::move(run)) {}
 

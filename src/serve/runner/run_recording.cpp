@@ -71,6 +71,10 @@ void RunRecording::loaded(uint16_t node, const std::string& file, const std::str
     if (recording_) recording_->loaded(node, file, text);
 }
 
+void RunRecording::reseeded(uint64_t seed) {
+    if (recording_) recording_->reseeded(seed);
+}
+
 void RunRecording::flush(uint64_t request) {
     if (recording_) {
         flushes_.emplace_back(request, recording_->flush());

@@ -58,6 +58,7 @@ public:
     void changed(const std::vector<std::string>& saved,
                  const std::map<std::string, std::string>& read);
     void loaded(uint16_t node, const std::string& file, const std::string& text);
+    void reseeded(uint64_t seed);
 
     // Answered once all that is there now is in the file.
     void flush(uint64_t request);

@@ -11,8 +11,10 @@
 #include "record/compare_runs.hpp"
 #include "record/compare_tape.hpp"
 #include "record/replay.hpp"
+#include "record/topics.hpp"
 #include "record/why.hpp"
 #include "serve/runner/test_run_host.hpp"
+#include "trial/continuation.hpp"
 #include "wire/messages.hpp"
 
 namespace vagus::serve {
@@ -262,6 +264,197 @@ TEST_F(RunRecordingTest, ARunContinuesFromAnyInstantOfTheOneBefore) {
         EXPECT_GE(seconds_of(apart.value_or(from_seconds(t))), t);
     }
     EXPECT_EQ(leave(), 0);
+}
+
+// A node that counts each second, paused and let run by a person.
+class CountingTest : public RunRecordingTest {
+protected:
+    std::string counting() {
+        const std::string project = R"(<!DOCTYPE aesl-source><network>
+            <event size="1" name="beat"/>
+            <node nodeId="1" name="thymio-II">
+var count = 0
+timer.period[0] = 1000
+onevent timer0
+count = count + 1
+emit beat count
+</node></network>)";
+        write("count.aesl", project);
+        return write("count.world.json",
+                     R"({"format": "vagus-world/1", "name": "Room", "size": [2, 2], "robots":
+                         [{"name": "alice", "type": "thymio2", "at": [1, 1], "node": 1,
+                           "script": "count.aesl"}]})");
+    }
+    talk::SendFrame to_node(auto message) {
+        message.dest = 1;
+        wire::Frame frame{};
+        EXPECT_EQ(wire::encode_message(message, wire::kHostId, frame), wire::Error::None);
+        return {{frame}};
+    }
+    static std::function<bool(const talk::News&)> opened_is(uint64_t number) {
+        return [number](const talk::News& news) {
+            const auto* opened = std::get_if<talk::Opened>(&news);
+            return opened && opened->order == number;
+        };
+    }
+    // When events of the bus are in the recording.
+    std::vector<double> recorded_events() {
+        const std::string bytes = read_file(file).value();
+        const auto reader = mcap::Reader::open(bytes, "run.mcap");
+        EXPECT_TRUE(reader.ok());
+        std::vector<double> instants;
+        mcap::Cursor cursor(reader.value());
+        while (const auto message = cursor.next()) {
+            const auto* channel = reader.value().channel(message->channel);
+            if (channel->topic != record::kEventsTopic) continue;
+            instants.push_back(seconds_of(record::time_of(message->log_time)));
+        }
+        return instants;
+    }
+    // All that is told for the history until then, in its order.
+    std::vector<Happened> happened_until(const std::function<bool(const talk::News&)>& is_it) {
+        std::vector<Happened> all;
+        EXPECT_TRUE(wait_all([&](const talk::News& news) {
+            if (const auto* now = std::get_if<talk::HappenedNow>(&news)) {
+                for (const talk::HappenedOne& one : now->list) all.push_back(one.what);
+            }
+            return is_it(news);
+        }));
+        return all;
+    }
+};
+
+// A run that is run again to its end tells the history what happened then, at the same instants:
+// also that a node was paused by a person, and let run.
+TEST_F(CountingTest, WhatHappenedOnTheBusIsToldAgainWithItsInstants) {
+    talk::Open open = recorded(counting());
+    say(talk::SetPace{true, 1});
+    say(open);
+    (void)wait<talk::Opened>();
+    const auto pass = [this](uint32_t milliseconds, double t) {
+        say(talk::LetTimePass{milliseconds});
+        (void)clock_from(t);
+    };
+    pass(2500, 2.49);
+    say(to_node(wire::Pause{}));
+    pass(1000, 3.49);
+    say(to_node(wire::Run{}));
+    pass(2000, 5.49);
+    say(talk::FlushRecording{1});
+    done(1);
+    open.order = 2;
+    open.past = talk::PastOf{.recording = file};
+    open.recording.clear();
+    say(open);
+    const std::vector<Happened> told = happened_until(opened_is(2));
+    std::vector<std::string> lines;
+    for (const Happened& one : told) {
+        EXPECT_EQ(one.node, 1);
+        EXPECT_EQ(one.source, "thymio-II");
+        EXPECT_EQ(one.wall, 0);
+        std::string text = one.kind + " " + one.name;
+        for (const int16_t word : one.args) text += " " + std::to_string(word);
+        lines.push_back(text);
+    }
+    // Told to pause between two beats, it is stopped (wire spec, 3.2); the timer begins the next,
+    // in which it is paused until it is let run.
+    ASSERT_EQ(lines, (std::vector<std::string>{"appeared thymio-II", "state running",
+                                               "event beat 1", "event beat 2", "state stopped",
+                                               "state paused", "state running", "event beat 3",
+                                               "event beat 4", "event beat 5"}));
+    const double instants_then[] = {0, 0, 1, 2, 2.5, 3, 3.5, 3.5, 4, 5};
+    for (size_t i = 0; i < told.size(); ++i) EXPECT_NEAR(told[i].t, instants_then[i], 0.02) << i;
+    // At the instants at which they were recorded.
+    std::vector<double> instants;
+    for (const Happened& one : told) {
+        if (one.kind == "event") instants.push_back(one.t);
+    }
+    EXPECT_EQ(instants, recorded_events());
+}
+
+// The history has what was before that instant already, and hears the bus itself from there on.
+TEST_F(CountingTest, ARunFromAnInstantOnTellsNothingOfWhatWasBefore) {
+    talk::Open open = recorded(counting());
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)clock_from(3);
+    say(talk::FlushRecording{1});
+    done(1);
+    open.order = 2;
+    open.past = talk::PastOf{file, 2.3};
+    open.recording.clear();
+    say(open);
+    EXPECT_TRUE(happened_until(opened_is(2)).empty());
+    say(talk::SetPace{false, 0});
+    EXPECT_TRUE(happened_until([](const talk::News& news) {
+                    const auto* clock = std::get_if<talk::Clock>(&news);
+                    return clock && clock->t > 4;
+                }).empty());
+}
+
+// A continuation with other chance is opened as any recording: it draws again where that one did.
+TEST_F(RunRecordingTest, ARunWhoseChanceWasDrawnAgainIsLivedAgain) {
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),
+                               test::examples("follow-wall/WallFollow.plan.json"));
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)clock_from(8);
+    say(talk::FlushRecording{1});
+    done(1);
+    const std::string other = (folder / "other.mcap").string();
+    {
+        const std::string bytes = read_file(file).value();
+        const auto reader = mcap::Reader::open(bytes, "run.mcap");
+        ASSERT_TRUE(reader.ok());
+        auto continued = trial::Continued::open(reader.value(), "x > 100", Time(6s));
+        ASSERT_TRUE(continued.ok()) << continued.error().what;
+        const Status written = continued.value()->record({.at = Time(3s), .seed = 5}, other);
+        ASSERT_TRUE(written.ok()) << written.error().what;
+    }
+    EXPECT_EQ(parts_at(file, other), Time(3s));
+    open.order = 2;
+    open.past = talk::PastOf{.recording = other};
+    open.recording = (folder / "again.mcap").string();
+    say(talk::SetPace{true, 1});
+    say(open);
+    (void)wait<talk::Opened>([](const talk::Opened& one) { return one.order == 2; });
+    say(talk::SetPace{false, 0});
+    (void)clock_from(6.5);
+    EXPECT_EQ(leave(), 0);
+    EXPECT_GT(same_again(open.recording), 1000u);
+    // The same draws at the same instant, up to where the first of them ends. Inputs are told apart
+    // by the turn in which they came, which a run without a person has none of.
+    const std::string first = read_file(other).value();
+    const std::string second = read_file(open.recording).value();
+    const auto found = record::compare_runs(mcap::Reader::open(first, "a").value(),
+                                            mcap::Reader::open(second, "b").value(), {});
+    ASSERT_TRUE(found.ok());
+    EXPECT_GT(found.value().lanes.size(), 3u);
+    for (const auto& lane : found.value().lanes) {
+        if (lane.name == record::kInputTopic || !lane.difference) continue;
+        EXPECT_GE(seconds_of(lane.difference->at), 6) << lane.name;
+    }
+}
+
+// In another run a breakpoint is come to elsewhere, and nobody is there who lets it go.
+TEST_F(RunRecordingTest, WhatWasStoppedAtABreakpointIsNotContinuedWithOtherChance) {
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"),
+                               test::examples("follow-wall/WallFollow.plan.json"));
+    open.breakpoints = {{.number = 7,
+                         .plan = test::examples("follow-wall/WallFollow.plan.json"),
+                         .element = "parallelToWall"}};
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)wait<talk::PlanNow>([](const talk::PlanNow& now) { return !now.stands_at.empty(); });
+    EXPECT_EQ(leave(), 0);
+    const std::string bytes = read_file(file).value();
+    const auto reader = mcap::Reader::open(bytes, "run.mcap");
+    ASSERT_TRUE(reader.ok());
+    const auto continued = trial::Continued::open(reader.value(), "x > 1", std::nullopt);
+    ASSERT_FALSE(continued.ok());
+    EXPECT_THAT(
+        continued.error().what,
+        HasSubstr("run.mcap: is of a run that somebody stepped or stopped at a breakpoint"));
 }
 
 TEST_F(RunRecordingTest, AnotherWayFromAnInstantIsThatOfItsFiles) {

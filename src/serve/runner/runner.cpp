@@ -151,6 +151,11 @@ private:
         if (prepared_ && !plan_.is_on_bus()) prepared_->abort();
     }
 
+    void reseed(uint64_t seed) {
+        if (prepared_) prepared_->reseed(seed);
+        session_->world().reseed(seed);
+    }
+
     // ---- opening ----
     // Serves one order to its end: a plan in its world, then the world alone.
     void serve() {
@@ -284,8 +289,9 @@ private:
         if (!link.ok()) return fail(link.error().what);
         link_ = link.value();
         put_robots(session.world(), order.poses);
-        if (past_.is_on()) return past_.enter(session, link_);
-        tell_opened({});
+        if (!past_.is_on()) return tell_opened({});
+        if (tells_past_) show_.follow(session);
+        past_.enter(session, link_);
     }
 
     void tell_opened(std::vector<std::string> others) {
@@ -331,6 +337,10 @@ private:
         }
         pipe_.flush();
         // The history is to have all of it.
+        wait_for_history();
+    }
+
+    void wait_for_history() {
         while (tells_past_ && teller_.is_behind() && !has_to_end()) {
             pipe_.wait(kPausedWaitMs);
             take_packets();
@@ -340,6 +350,8 @@ private:
 
     // Nobody has heard of it yet, and it does not go on by itself.
     void be_here() {
+        wait_for_history();
+        show_.tell_past();
         std::vector<std::string> others = past_.end();
         teller_.be_mute(false);
         plan_.relive(false);
@@ -442,7 +454,7 @@ private:
         take_packets();
         pipe_.flush();
         recording_.tell();
-        show_.tell_records();
+        show_.tell_past();
         if (wall >= next_poses_) {
             next_poses_ = wall + kPosesEvery;
             show_.tell_poses(*session_);
@@ -477,7 +489,11 @@ private:
     RunRecording recording_{teller_};
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
     // What the debugger was told then it is told again by itself.
-    Reliving past_{{.plan = plan_, .recording = recording_, .abort = [this] { abort_prepared(); }}};
+    Reliving past_{{.plan = plan_,
+                    .recording = recording_,
+                    .abort = [this] { abort_prepared(); },
+                    .loaded = [this](uint16_t node) { show_.loaded(*session_, node); },
+                    .reseed = [this](uint64_t seed) { reseed(seed); }}};
     bool tells_past_ = false;
     std::vector<Packet> waiting_;                          // until it is over
     std::vector<talk::BreakpointOrder> breakpoints_ = {};  // of the order

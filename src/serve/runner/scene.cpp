@@ -3,7 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/trig.hpp"
 #include "serve/bytes.hpp"
+#include "serve/follow/sights.hpp"
 #include "serve/json.hpp"
 #include "sim/camera.hpp"
 
@@ -116,33 +118,48 @@ std::string poses_of(const sim::World& world) {
     return bytes;
 }
 
+// Rounded to a tenth of a millimetre, and without a negative zero: a look that hits nothing is then
+// the same while its robot moves.
+std::string looks_of(const sim::World& world, const sim::RobotView& robot, uint16_t index) {
+    const double cosine = trig::cos(robot.pose.angle);
+    const double sine = trig::sin(robot.pose.angle);
+    const auto in_robot = [&](sim::Point at) {
+        const double x = at.x - robot.pose.at.x;
+        const double y = at.y - robot.pose.at.y;
+        const auto rounded = [](double metres) { return std::round(metres * 1e4) / 1e4 + 0.0; };
+        return sim::Point{rounded(cosine * x + sine * y), rounded(cosine * y - sine * x)};
+    };
+    std::string looks;
+    for (const sim::Beam& look : world.beams(robot.id)) {
+        append(looks, index);
+        append(looks, static_cast<uint16_t>(look.hit ? 1 : 0));
+        append_point(looks, in_robot(look.from));
+        append_point(looks, in_robot(look.to));
+    }
+    return looks;
+}
+
+std::string lamps_of(const sim::World& world, const sim::RobotView& robot, uint16_t index) {
+    std::string lamps;
+    for (const sim::Lamp& lamp : world.lamps(robot.id)) {
+        append(lamps, index);
+        append(lamps, uint16_t{0});
+        append_point(lamps, lamp.at);
+        append(lamps, static_cast<float>(lamp.colour.r));
+        append(lamps, static_cast<float>(lamp.colour.g));
+        append(lamps, static_cast<float>(lamp.colour.b));
+    }
+    return lamps;
+}
+
 std::string rays_of(const sim::World& world) {
     std::string looks, lamps;
-    uint16_t number_of_looks = 0, number_of_lamps = 0;
     uint16_t index = 0;
     for (const sim::RobotView& robot : world.robots()) {
-        for (const sim::Beam& look : world.beams(robot.id)) {
-            append(looks, index);
-            append(looks, static_cast<uint16_t>(look.hit ? 1 : 0));
-            append_point(looks, look.from);
-            append_point(looks, look.to);
-            ++number_of_looks;
-        }
-        for (const sim::Lamp& lamp : world.lamps(robot.id)) {
-            append(lamps, index);
-            append(lamps, uint16_t{0});
-            append_point(lamps, lamp.at);
-            append(lamps, static_cast<float>(lamp.colour.r));
-            append(lamps, static_cast<float>(lamp.colour.g));
-            append(lamps, static_cast<float>(lamp.colour.b));
-            ++number_of_lamps;
-        }
-        ++index;
+        looks += looks_of(world, robot, index);
+        lamps += lamps_of(world, robot, index++);
     }
-    std::string bytes;
-    append(bytes, number_of_looks);
-    append(bytes, number_of_lamps);
-    return bytes + looks + lamps;
+    return rays_payload(looks, lamps);
 }
 
 std::string picture_of(const sim::World& world, sim::RobotId robot) {

@@ -13,6 +13,9 @@ namespace vagus::serve {
 talk::Scene scene_of(const sim::World& world);
 std::string poses_of(const sim::World& world);
 std::string rays_of(const sim::World& world);
+// Its parts of one robot, by its index in the scene.
+std::string looks_of(const sim::World& world, const sim::RobotView& robot, uint16_t index);
+std::string lamps_of(const sim::World& world, const sim::RobotView& robot, uint16_t index);
 // What the robot's camera sees; empty without a camera.
 std::string picture_of(const sim::World& world, sim::RobotId robot);
 // Robots where they were before a run, if a hand put them there: in their order.

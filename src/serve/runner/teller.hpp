@@ -49,6 +49,8 @@ private:
     static bool is_history(const talk::News& news) {
         return std::holds_alternative<talk::PlanVersion>(news) ||
                std::holds_alternative<talk::Traced>(news) ||
+               std::holds_alternative<talk::HappenedNow>(news) ||
+               std::holds_alternative<talk::PictureThen>(news) ||
                std::holds_alternative<talk::Records>(news);
     }
 

@@ -1,10 +1,60 @@
 #include "serve/runner/world_show.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "base/time.hpp"
 #include "serve/runner/bus_clock.hpp"
 #include "serve/runner/scene.hpp"
+#include "wire/protocol.hpp"
 
 namespace vagus::serve {
+
+namespace {
+
+std::string source_of(const session::SimSession& session, uint16_t node) {
+    if (node == wire::kHostId) return kHostName;
+    const aesl::Target* const target = session.target(node);
+    return target != nullptr ? target->name : fmt::format("node {}", node);
+}
+
+}  // namespace
+
+void WorldShow::begin() {
+    recorder_.begin();
+    next_picture_ = {};
+    follows_ = false;
+}
+
+// Its own scripts were loaded before anybody followed it.
+void WorldShow::follow(session::SimSession& session) {
+    follows_ = true;
+    for (const session::NodeState& node : session.nodes()) {
+        if (node.name.empty()) continue;
+        hear(session, {.node = node.id, .what = debug::NodeDescribed{node.name}});
+        if (node.state == debug::ProgramState::Unknown) continue;
+        hear(session,
+             {.node = node.id, .what = debug::StateChanged{.state = node.state, .at = {}}});
+    }
+    session.on_heard([this, &session](const debug::Event& event) { hear(session, event); });
+}
+
+void WorldShow::loaded(const session::SimSession& session, uint16_t node) {
+    happen(session, loaded_now(node, source_of(session, node)));
+}
+
+void WorldShow::hear(const session::SimSession& session, const debug::Event& event) {
+    auto happened = happened_of(event, source_of(session, event.node));
+    if (happened) happen(session, std::move(*happened));
+}
+
+void WorldShow::happen(const session::SimSession& session, Happened happened) {
+    if (!follows_) return;
+    happened.t = seconds_of(session.now());
+    happened_.list.push_back({std::move(happened)});
+    if (happened_.list.size() >= kHappenedAtOnce) tell_past();
+}
 
 void WorldShow::tell_frames(session::SimSession& session, hub::LinkId link) {
     wire::Frame frame;
@@ -15,7 +65,27 @@ void WorldShow::tell_frames(session::SimSession& session, hub::LinkId link) {
 
 void WorldShow::record(const session::SimSession& session) {
     recorder_.look(session.world());
-    if (recorder_.is_due_to_send()) tell_records();
+    keep_pictures(session);
+    if (recorder_.is_due_to_send()) tell_past();
+}
+
+void WorldShow::keep_pictures(const session::SimSession& session) {
+    if (session.now() < next_picture_) return;
+    next_picture_ = session.now() + kPictureEvery;
+    if (teller_.is_behind()) return;
+    size_t kept = 0;
+    for (const sim::RobotView& robot : session.world().robots()) {
+        if (!session.world().has_camera(robot.id)) continue;
+        if (++kept > kPictureRobotsMax) return;
+        teller_.tell(talk::PictureThen{seconds_of(session.now()),
+                                       std::string(robot.name),
+                                       {picture_of(session.world(), robot.id)}});
+    }
+}
+
+void WorldShow::tell_past() {
+    tell_records();
+    if (!happened_.list.empty()) teller_.tell(std::exchange(happened_, {}));
 }
 
 void WorldShow::tell_records() {

@@ -126,6 +126,15 @@ std::vector<News> news() {
         Rays{1.5, {"rays"}},
         Picture{1.5, "alice", {"pixels"}},
         Records{{record()}},
+        HappenedNow{{{{.t = 1.5,
+                       .kind = "state",
+                       .node = 3,
+                       .source = "drive",
+                       .name = "paused",
+                       .text = "line 12",
+                       .args = {-32768, 7, 32767},
+                       .line = 12}}}},
+        PictureThen{1.5, "alice", {"pixels"}},
     };
 }
 
@@ -253,6 +262,18 @@ TEST(Talk, ANumberOutsideOfItsFieldIsRefused) {
     const Packet take{encode(Order(TakeObject{})).kind, writer.take()};
     EXPECT_EQ(decode_order(take).error().what,
               "object.take.object: expected a number up to 4294967295, found 4294967296");
+}
+
+TEST(Talk, AWordIsAWordOfANode) {
+    Packet packet = encode(News(HappenedNow{{{{.args = {-1}}}}}));
+    const size_t at = packet.bytes.rfind("\xff\xff\xff\xff\xff\xff\xff\xff");
+    ASSERT_NE(at, std::string::npos);
+    // -32,769, as 64 bits, the lowest first.
+    packet.bytes.replace(at, 8, "\xff\x7f\xff\xff\xff\xff\xff\xff");
+    const auto read = decode_news(packet);
+    ASSERT_FALSE(read.ok());
+    EXPECT_EQ(read.error().what,
+              "happened.list[0].args[0]: expected a number from -32768 to 32767, found -32769");
 }
 
 TEST(Talk, WhatIsNotFiniteIsNoNumber) {

@@ -17,6 +17,7 @@
 
 #include "serve/follow/plan_outline.hpp"
 #include "serve/talk/values.hpp"
+#include "serve/target/happened.hpp"
 
 namespace vagus::serve::talk {
 
@@ -323,9 +324,46 @@ struct Records {
     bool operator==(const Records&) const = default;
 };
 
+// What a camera saw, for the history: now and then (docs/decisions/0240).
+struct PictureThen {
+    double t = 0;
+    std::string robot = {};
+    Bytes bytes = {};
+    static constexpr std::string_view kName = "picture.then";
+    static void layout(auto& each, auto& it) {
+        each("t", it.t);
+        each("robot", it.robot);
+        each("bytes", it.bytes);
+    }
+    bool operator==(const PictureThen&) const = default;
+};
+
+// Of the bus while the past of a run is run again, for the history: what the nodes and the plan
+// said, in its order.
+struct HappenedOne {
+    Happened what = {};
+    static void layout(auto& each, auto& it) {
+        each("t", it.what.t);
+        each("kind", it.what.kind);
+        each("node", it.what.node);
+        each("source", it.what.source);
+        each("name", it.what.name);
+        each("text", it.what.text);
+        each("args", it.what.args);
+        each("line", it.what.line);
+    }
+    bool operator==(const HappenedOne&) const = default;
+};
+struct HappenedNow {
+    std::vector<HappenedOne> list = {};
+    static constexpr std::string_view kName = "happened";
+    static void layout(auto& each, auto& it) { each("list", it.list); }
+    bool operator==(const HappenedNow&) const = default;
+};
+
 // All of them. Which one a packet holds is its place in this list.
 using News = std::variant<Alive, Opening, Opened, OpenFailed, PlanVersion, Traced, PlanNow, HeldNow,
                           BreakpointsNow, PlanOver, Answer, Line, Clock, SceneNow, FrameSeen, Poses,
-                          Rays, Picture, Records>;
+                          Rays, Picture, Records, HappenedNow, PictureThen>;
 
 }  // namespace vagus::serve::talk

@@ -114,6 +114,18 @@ void Reader::take(bool& value) {
     value = byte == 1;
 }
 
+// A word of a node.
+void Reader::take(int16_t& value) {
+    if (!expect(Kind::Whole)) return;
+    constexpr int64_t kLeast = std::numeric_limits<int16_t>::min();
+    constexpr int64_t kMost = std::numeric_limits<int16_t>::max();
+    const auto whole = take_raw<int64_t>();
+    if (whole < kLeast || whole > kMost) {
+        fail(fmt::format("a number from {} to {}", kLeast, kMost), std::to_string(whole));
+    }
+    value = static_cast<int16_t>(whole);
+}
+
 void Reader::take(double& value) {
     if (!expect(Kind::Number)) return;
     value = take_raw<double>();

@@ -43,6 +43,7 @@ public:
     std::optional<std::string> finish();
 
     void take(bool& value);
+    void take(int16_t& value);
     void take(double& value);  // finite
     void take(std::string& text);
     void take(Bytes& bytes);

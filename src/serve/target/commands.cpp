@@ -93,7 +93,7 @@ Status Target::emit(const std::string& event, const std::vector<int16_t>& args) 
     if (!network_) return Error{Code::Unavailable, kNoRobot};
     will_move();
     TRY(network_->emit(event, args));
-    happen("event", 0, event, "", args);
+    happen({.kind = "event", .source = source_of(wire::kHostId), .name = event, .args = args});
     const auto& events = network_->common().events;
     const auto named = std::find_if(events.begin(), events.end(),
                                     [&event](const auto& one) { return one.name == event; });

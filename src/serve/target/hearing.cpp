@@ -9,23 +9,21 @@
 
 namespace vagus::serve {
 
-void Target::happen(const char* kind, uint16_t node, const std::string& name,
-                    const std::string& text, const std::vector<int16_t>& args) {
-    const Json happening = {
-        {"run", told_.run()}, {"t", time()},  {"wall", desk_.wall_ms()},
-        {"kind", kind},       {"node", node}, {"source", node == 0 ? "main" : name_of(node)},
-        {"name", name},       {"args", args}, {"text", text}};
-    told_.happening(happening);
+void Target::happen(Happened happened) {
+    happened.t = time();
+    happened.wall = desk_.wall_ms();
+    told_.happened(happened);
+    Json happening = happening_json(happened);
+    happening["run"] = told_.run();
     desk_.topics().add("happenings", happening);
 }
 
-void Target::hear(const debug::Event& event, const debug::NodeDescribed& described) {
+void Target::hear(const debug::Event& event, const debug::NodeDescribed&) {
     scripts_.targets_changed();
     desk_.topics().touch("scripts");
     desk_.topics().touch("script");
     desk_.topics().touch("findings");
     desk_.topics().touch("node");
-    happen("appeared", event.node, described.name, "");
     if (!stopping_.state_of(event.node)) quiet_ = false;
     Known& known = known_[event.node];
     const auto loaded = hints_.loaded_already(event.node);
@@ -51,11 +49,7 @@ void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
     } else if (known.why.empty()) {
         known.why = "asked";
     }
-    const bool paused = state.state != debug::ProgramState::Running && state.at.line > 0;
     dropped_.state(event.node, state.state);
-    told_.node_state(time(), event.node, debug::name_of(state.state), paused ? state.at.line : 0);
-    happen("state", event.node, debug::name_of(state.state),
-           paused ? fmt::format("line {}", state.at.line) : "");
 }
 
 // Another program on the bus may have paused it, too. What is loaded was told to stand.
@@ -76,7 +70,6 @@ void Target::hear(const debug::Event& event, const debug::Fault& fault) {
     // Killed: somebody wanted it, and the others run on.
     if (fault.kind != debug::FaultKind::Killed) hints_.stopped_at_breakpoint();
     const std::string place = fault.at.line > 0 ? fmt::format(" at line {}", fault.at.line) : "";
-    happen("fault", event.node, debug::name_of(fault.kind), fault.text + place);
     say_("error", fmt::format("{}{}: {}", name_of(event.node), place, fault.text));
 }
 
@@ -109,7 +102,6 @@ void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
     if (traffic_.size() < kTrafficMax || traffic_.contains({event.node, name})) {
         ++traffic_[{event.node, name}];
     }
-    happen("event", event.node, name, "", sent.arguments);
     if (event.node != wire::kHostId) tells_.event(name, sent.arguments);
     count_dropped(event.node, sent.number);
 }
@@ -126,6 +118,7 @@ void Target::count_dropped(uint16_t from, uint16_t event) {
 
 void Target::hear(const debug::Event& event) {
     desk_.topics().touch("robot");
+    if (auto happened = happened_of(event, source_of(event.node))) happen(std::move(*happened));
     // A node that was just being started may have said meanwhile that it runs.
     if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;
     (void)resting_.hear(event);
@@ -159,12 +152,10 @@ void Target::hear(const debug::Event& event) {
         Known& known = known_[event.node];
         known.lost_program = known.lost_program || known.has_program;
         known.has_program = false;
-    } else if (const auto* gone = std::get_if<debug::NodeDisconnected>(what)) {
+    } else if (std::holds_alternative<debug::NodeDisconnected>(*what)) {
         dropped_.state(event.node, debug::ProgramState::Unknown);
-        happen("gone", event.node, name_of(event.node), gone->forgotten ? "it said so" : "");
         went_away(event.node);
-    } else if (std::get_if<debug::NodeReconnected>(what)) {
-        happen("appeared", event.node, name_of(event.node), "");
+    } else if (std::holds_alternative<debug::NodeReconnected>(*what)) {
         quiet_ = false;  // it may have been switched on again, and run what it keeps
         place_breakpoints();
     } else if (const auto* told = std::get_if<debug::ProgramTold>(what)) {

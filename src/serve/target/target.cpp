@@ -154,6 +154,10 @@ std::string Target::name_of(uint16_t node) const {
     return view && !view->name.empty() ? view->name : fmt::format("node {}", node);
 }
 
+std::string Target::source_of(uint16_t node) const {
+    return node == wire::kHostId ? kHostName : name_of(node);
+}
+
 std::string Target::doc_of(uint16_t node) const {
     const debug::NodeView* view = network_ ? network_->node(node) : nullptr;
     if (!view || !view->described) return {};
@@ -271,7 +275,7 @@ void Target::load(const std::vector<uint16_t>& nodes, bool run,
         },
         [this, run, failed = std::move(failed), finish = std::move(finish)](Batch& batch) {
             for (const uint16_t node : batch.done) {
-                happen("loaded", node, name_of(node), "");
+                happen(loaded_now(node, name_of(node)));
                 if (run && is_ready(node)) release(node);
             }
             note_failed_loads(batch);

@@ -32,6 +32,7 @@
 #include "serve/target/breakpoints.hpp"
 #include "serve/target/carrier.hpp"
 #include "serve/target/dropped_events.hpp"
+#include "serve/target/happened.hpp"
 #include "serve/target/stopping.hpp"
 #include "serve/target/word_ranges.hpp"
 
@@ -71,15 +72,12 @@ struct TargetCounts {
     size_t nodes = 0, running = 0;  // that are there
 };
 
-// For the history: what happened, a Happening of the protocol; where a node is paused; words that
-// were seen, and words that nobody looks at any more.
+// For the history: what happened; words that were seen, and words that nobody looks at any more.
 struct TargetTold {
     using Words = std::span<const int16_t>;
-    std::function<void(const nlohmann::json& happening)> happening = [](auto&) {};
+    std::function<void(const Happened& happened)> happened = [](auto&) {};
     // The number of the run that it belongs to.
     std::function<uint64_t()> run = [] { return uint64_t{0}; };
-    std::function<void(double t, uint16_t node, const std::string& state, int line)> node_state =
-        [](double, uint16_t, auto&, int) {};
     std::function<void(double t, uint16_t node, uint16_t address, Words values)> words =
         [](double, uint16_t, uint16_t, Words) {};
     std::function<void(double t, uint16_t node, uint16_t address, uint16_t count)> unwatched =
@@ -323,8 +321,7 @@ private:
     void hear(const debug::RequestDone& done);
     void hear(const debug::Event& event, const debug::VariableChanged& changed);
     void hear_place(const debug::Event& event, const debug::BreakpointResult& result);
-    void happen(const char* kind, uint16_t node, const std::string& name, const std::string& text,
-                const std::vector<int16_t>& args = {});
+    void happen(Happened happened);
     void put_watched_together();
     void watch_what_is_shown();
     bool is_told(const std::string& node, const std::string& variable) const;
@@ -344,6 +341,7 @@ private:
     ScriptBreakpoint* breakpoint_of(uint16_t node, int line);
     std::string doc_of(uint16_t node) const;
     std::string name_of(uint16_t node) const;
+    std::string source_of(uint16_t node) const;
 
     Json target_document() const;
     Json node_document(const Json& of) const;

@@ -53,6 +53,8 @@ Result<History::Instant> instant_of(const Json& in) {
     for (const auto& one : TRY(numbers_in(in, "ranges", 3))) {
         instant.ranges.push_back({one[0], one[1], one[2]});
     }
+    instant.rays = in.value("rays", false);
+    instant.picture = in.value("picture", "");
     return instant;
 }
 
@@ -188,14 +190,12 @@ void HistoryDesk::records(const std::string& bytes) {
     (void)told_at(last).record(bytes);
 }
 
-void HistoryDesk::happening(const Json& happening, double t) {
-    told_at(t).happen({t, happening["wall"], happening["kind"], happening["node"],
-                       happening["source"], happening["name"], happening["text"],
-                       happening["args"].get<std::vector<int16_t>>()});
+void HistoryDesk::picture(KeptPicture picture) {
+    told_at(picture.t).picture(std::move(picture));
 }
 
-void HistoryDesk::node_state(double t, uint16_t node, const std::string& state, int line) {
-    told_at(t).node_state(t, node, state, line);
+void HistoryDesk::happened(Happened happened) {
+    told_at(happened.t).happen(std::move(happened));
 }
 
 void HistoryDesk::words(double t, uint16_t node, uint16_t address,

@@ -74,8 +74,8 @@ public:
     void plan(uint64_t version, const PlanOutlines& plans);
     void trace(const std::string& line);
     void records(const std::string& bytes);
-    void happening(const Json& happening, double t);
-    void node_state(double t, uint16_t node, const std::string& state, int line);
+    void happened(Happened happened);
+    void picture(KeptPicture picture);
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);
     void unwatched(double t, uint16_t node, uint16_t address, uint16_t count);
     // The clock of what runs, whether it runs or is paused.

@@ -27,18 +27,21 @@ void Workbench::record_history() {
         .plan = [this](const talk::PlanVersion& one) { history_.plan(one.number, one.plans); },
         .trace = [this](const std::string& line) { history_.trace(line); },
         .records = [this](const std::string& bytes) { history_.records(bytes); },
+        .happened = [this](const Happened& one) { history_.happened(one); },
+        .picture =
+            [this](const talk::PictureThen& one) {
+                history_.picture({one.t, one.robot, one.bytes.bytes});
+            },
     });
-    // A simulation stamps what it tells; on a bus the time is that of hearing it.
-    const auto at = [this](double t) { return bus_ ? history_clock() : t; };
+    // A simulation stamps what it tells, and tells itself what happened while its past is run
+    // again. On a bus the time is that of hearing it.
     target_.on_told({
-        .happening =
-            [this, at](const Json& one) {
-                history_.happening(one, at(one["t"]));
-                if (one["kind"] == "loaded") record_script(one["node"], one["name"]);
+        .happened =
+            [this](const Happened& one) {
+                record_happened(one);
+                if (one.kind == "loaded") record_script(one.node, one.name);
             },
         .run = [this] { return history_.run(); },
-        .node_state = [this, at](double t, uint16_t node, const std::string& state,
-                                 int line) { history_.node_state(at(t), node, state, line); },
         // Of a simulation the records tell all words.
         .words =
             [this](double, uint16_t node, uint16_t address, std::span<const int16_t> values) {
@@ -49,6 +52,11 @@ void Workbench::record_history() {
                 if (bus_) history_.unwatched(history_clock(), node, address, count);
             },
     });
+}
+
+void Workbench::record_happened(Happened happened) {
+    if (bus_) happened.t = history_clock();
+    history_.happened(std::move(happened));
 }
 
 void Workbench::record_plan(const RunOrder& order) {
@@ -171,7 +179,9 @@ Result<std::string> Workbench::recording_at(const std::string& path) const {
     if (!project_) return Error{Code::Unavailable, "no project is open; open one first"};
     std::string file = project_->real(path);
     // Folders whose names begin with a dot are not among the files of a project.
-    if (files_.exists(path) || recordings_.keeps(file) || tests_.has_recording(path)) return file;
+    const bool kept =
+        recordings_.keeps(file) || tests_.has_recording(path) || turnings_.has_recording(path);
+    if (kept || files_.exists(path)) return file;
     return Error{Code::NotFound, path + ": there is no such file"};
 }
 

@@ -56,8 +56,12 @@ void WhyDesk::ask(const Call& call) {
 }
 
 void WhyDesk::tell(const Call& call, const Json& answered) {
+    call.done({{"chain", shown_chain(answered.value("chain", Json::array()))}});
+}
+
+Json WhyDesk::shown_chain(const Json& links) {
     Json chain = Json::array();
-    for (const Json& link : answered.value("chain", Json::array())) {
+    for (const Json& link : links) {
         const std::string place = text_in(link, "place", kPlaceMax);
         Json shown = {{"t", link["t"]},
                       {"what", text_in(link, "what", kTextMax)},
@@ -72,7 +76,7 @@ void WhyDesk::tell(const Call& call, const Json& answered) {
         if (!element.empty()) shown["element"] = element;
         chain.push_back(std::move(shown));
     }
-    call.done({{"chain", std::move(chain)}});
+    return chain;
 }
 
 // ---- places ----

@@ -31,6 +31,8 @@ public:
     Time next_tick() const { return questions_.next_tick(); }
     // The file of the project that a name in a recording means; empty: none.
     std::string path_of(const std::string& name);
+    // [WhyLink] of the protocol, of a chain as `vagus why --json` gives it.
+    Json shown_chain(const Json& chain);
 
 private:
     // A place in the project.

@@ -35,6 +35,11 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
       worker_([&links] { links.wake(); }),
       history_(desk, files_, worker_.poster()),
       whys_(desk, files_, scripts_, places.program, shown_run()),
+      turnings_(desk, files_, start_runner(places.program, "turning-host", kTurningMemoryMax),
+                shown_run(),
+                {.chain_of = [this](const Json& chain) { return whys_.shown_chain(chain); },
+                 .shorten = [this](const std::string& text) { return with_short_paths(text); },
+                 .run = [this] { return history_.run(); }}),
       logs_(desk, scripts_, places.program, shown_run()),
       pairs_(desk, places.program, shown_run(),
              {.recording_at = [this](const std::string& path) { return recording_at(path); },
@@ -284,6 +289,7 @@ void Workbench::close() {
 void Workbench::forget_project() {
     history_.forget();
     tests_.forget();
+    turnings_.forget();
     desk_.topics().forget("happenings");
     files_.leave();
     scripts_.reread();
@@ -424,6 +430,7 @@ void Workbench::tick(Time now) {
     tick_life();
     worker_.tick();
     whys_.tick(now);
+    turnings_.tick(now);
     logs_.tick(now);
     pairs_.tick(now);
     compares_.tick(now);
@@ -452,8 +459,9 @@ Time Workbench::next_tick(Time now) const {
     if (world_edited_ && !is_being_opened()) {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
-    next = std::min({next, whys_.next_tick(), logs_.next_tick(), pairs_.next_tick(),
-                     compares_.next_tick(), tries_.next_tick(), tests_.next_tick()});
+    next = std::min({next, whys_.next_tick(), turnings_.next_tick(), logs_.next_tick(),
+                     pairs_.next_tick(), compares_.next_tick(), tries_.next_tick(),
+                     tests_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

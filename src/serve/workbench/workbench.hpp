@@ -46,6 +46,7 @@
 #include "serve/workbench/targets.hpp"
 #include "serve/workbench/test_desk.hpp"
 #include "serve/workbench/try_desk.hpp"
+#include "serve/workbench/turning_desk.hpp"
 #include "serve/workbench/why_desk.hpp"
 #include "serve/worker.hpp"
 
@@ -192,6 +193,7 @@ private:
 
     // ---- recording.cpp: what the history and the recording are told ----
     void record_history();
+    void record_happened(Happened happened);
     void record_run(RunOrder& order);
     void continue_from(const Call& call);
     void continue_run(const Call& call, const std::string& recording);
@@ -292,6 +294,7 @@ private:
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
     std::optional<double> continues_at_;        // the run that is being opened
     WhyDesk whys_;
+    TurningDesk turnings_;
     LogDesk logs_;
     PairDesk pairs_;
     CompareDesk compares_;

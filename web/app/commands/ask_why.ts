@@ -14,6 +14,17 @@ export async function askWhy(studio: Studio, about: About, name = ''): Promise<v
   }
 }
 
+/** Shows where it is asked when something was decided. */
+export async function askDecided(studio: Studio): Promise<void> {
+  try {
+    const { askingOf } = await import('../../core/asking');
+    askingOf(studio).look('decided');
+    revealPanel(studio.window, 'why');
+  } catch (problem) {
+    studio.tell(problem);
+  }
+}
+
 /** The same of a variable of a node or the plan; of an array as a whole. */
 export function askWhyOf(studio: Studio, { node, name }: Pick): void {
   const nodes = studio.topics.get('robot', {})?.nodes;

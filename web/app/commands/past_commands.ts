@@ -3,7 +3,7 @@ import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { revealDoc, revealPanel, toast } from '../../core/window_state';
 import { text } from '../text';
-import { askWhy } from './ask_why';
+import { askDecided, askWhy } from './ask_why';
 import { shownEditor } from './editor_handles';
 import { canLog, logAt } from './log_values';
 import { drives } from './looks';
@@ -97,6 +97,13 @@ export function pastCommands(studio: Studio): Command[] {
       group,
       enabled: known,
       run: () => askWhy(studio, 'end'),
+    },
+    {
+      id: 'past.decided',
+      title: titles['past.decided'],
+      group,
+      enabled: () => drives(studio) && known() && simulated(),
+      run: () => askDecided(studio),
     },
     {
       id: 'past.log',

@@ -13,6 +13,7 @@ export interface PosesFrame {
 export interface Look {
   robot: number;
   hit: boolean;
+  /** In the frame of the robot. */
   from: Point;
   to: Point;
 }

@@ -4,7 +4,7 @@
 
 import { Emitter } from '../emitter';
 import type { Lamp, Look, PosesFrame, RaysFrame } from './frames';
-import { reachOf, type Point, type Pose } from './geometry';
+import { placed, reachOf, type Point, type Pose } from './geometry';
 import { drawOrder, type Standing } from './hit';
 import { keyOfObject, type ObjectKind, type RobotType, type Stage, type Thing } from './stage';
 import { Trails } from './trails';
@@ -69,10 +69,10 @@ export class WorldModel {
   screen: Extent = { width: 0, height: 0 };
 
   trails = new Trails();
-  looks: readonly Look[] = [];
   lamps: readonly Lamp[] = [];
   t = 0;
 
+  private rays: readonly Look[] = [];
   private poses = new Map<string, Pose>();
   private held = new Map<string, Pose>();
   private readonly then = new Map<string, Pose>();
@@ -151,9 +151,19 @@ export class WorldModel {
   }
 
   setRays({ looks, lamps }: RaysFrame): void {
-    this.looks = looks;
+    this.rays = looks;
     this.lamps = lamps;
     this.drawn.emit();
+  }
+
+  /** Where sensors look, in the world: from where their robots are shown. */
+  looks(): Look[] {
+    return this.rays.flatMap((look) => {
+      const thing = this.robotAt(look.robot);
+      if (!thing) return [];
+      const pose = this.poseOf(thing);
+      return [{ ...look, from: placed(look.from, pose), to: placed(look.to, pose) }];
+    });
   }
 
   /** In the order of the scene. */

@@ -57,6 +57,23 @@ describe('the world of an instant', () => {
     expect(model.robotsNow()).toEqual([]);
   });
 
+  test('SensorsLookFromWhereTheirRobotWas', () => {
+    const model = new WorldModel();
+    model.setStage(stageOfScene(scene));
+    model.setPoses(5, { robots: [pose(2)], objects: [] });
+    const look = { robot: 0, hit: true, from: { x: 0.1, y: 0 }, to: { x: 0.5, y: 0.2 } };
+    model.setRays({ looks: [look, { ...look, robot: 1 }], lamps: [] });
+    // A robot that is not in the scene looks nowhere.
+    expect(model.looks()).toEqual([{ ...look, from: { x: 2.1, y: 1 }, to: { x: 2.5, y: 1.2 } }]);
+    model.showThen(posesThen({ robots: [[0, 1, 1, Math.PI / 2]], objects: [] }));
+    const [then] = model.looks();
+    // It looked to the left of where it looks now: ahead is up.
+    expect(then?.from.x).toBeCloseTo(1);
+    expect(then?.from.y).toBeCloseTo(1.1);
+    expect(then?.to.x).toBeCloseTo(0.8);
+    expect(then?.to.y).toBeCloseTo(1.5);
+  });
+
   test('WhatIsNoPoseIsNowhere', () => {
     const { robots, objects } = posesThen({ robots: [[0, null, 1]], objects: ['x'] });
     expect(robots[0]?.x).toBeNaN();

@@ -1,21 +1,52 @@
 import { IconHelpCircle } from '@tabler/icons-react';
-import { useEffect, useRef } from 'react';
-import { askingOf, type Question, type WhyLink } from '../../../core/asking';
+import { Suspense, useEffect, useRef } from 'react';
+import { askingOf, type Asking, type Question, type WhyLink } from '../../../core/asking';
 import { shownTime } from '../../../core/numbers';
 import { copyText } from '../../commands/clipboard';
 import { useChanges, useStudio } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
+import { late } from '../../parts/late';
+import { Segments } from '../../parts/segments';
 import { Chain } from './chain';
 import { questionOf, whyWords as words } from './words';
 import '../../look/because.css';
+
+const Decided = late(() => import('./decided'));
 
 /** Why something is as it is: what it followed from, each a click from its place and its instant. */
 export default function WhyPanel() {
   const studio = useStudio();
   const asking = askingOf(studio);
   useChanges(asking.changed);
+  const views = [
+    { value: 'why', words: words.why },
+    { value: 'decided', words: words.decided },
+  ] as const;
+  return (
+    <div className="because">
+      <div className="because__views">
+        <Segments
+          small
+          label={words.views}
+          segments={views}
+          chosen={asking.view}
+          onChoose={(view) => asking.look(view)}
+        />
+      </div>
+      {asking.view === 'why' ? (
+        <Because asking={asking} />
+      ) : (
+        <Suspense>
+          <Decided />
+        </Suspense>
+      )}
+    </div>
+  );
+}
+
+function Because({ asking }: { asking: Asking }) {
   const { question, chain, trouble } = asking;
   const frame = useFirstLink(chain);
   if (question === null)

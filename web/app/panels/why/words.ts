@@ -3,6 +3,9 @@
 import type { Question } from '../../../core/asking';
 
 export const whyWords = {
+  views: 'Question',
+  why: 'Why?',
+  decided: 'When was it decided?',
   nothing: 'Nothing has been asked yet.',
   how: 'Ask about a robot in the world, an actor of the plan, a variable or an event: choose it and press W, or choose “Why?” in its menu.',
   waits: 'The run is run again…',

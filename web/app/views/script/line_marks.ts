@@ -1,5 +1,5 @@
-// What is at lines: words of a handler, breakpoints with their conditions, the line where the
-// node is paused, and the values of what that line names.
+// What is at lines: words of a handler, breakpoints with their conditions, log points, the line where
+// the node is paused, and the values of what that line names.
 
 import {
   RangeSet,
@@ -26,7 +26,8 @@ export interface Chip {
 
 export interface BreakMark {
   line: number;
-  kind: 'on' | 'if' | 'off' | 'unset';
+  /** log: no breakpoint, but a log point in the run that is shown. */
+  kind: 'on' | 'if' | 'off' | 'unset' | 'log';
   label: string;
   /** Said in a chip at the line's end. */
   note: string;

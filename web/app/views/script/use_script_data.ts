@@ -7,13 +7,14 @@ import { openSearchPanel } from '@codemirror/search';
 import { useCallback, useEffect, useMemo, useState } from 'react';
 import type { Breakpoint, Doc, Handler, HistoryNode, Node } from '../../../protocol/messages';
 import { wordAt } from '../../../core/help/entries';
+import { logLinesOf, type LogLine } from '../../../core/log_lines';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { pausedLineOf } from '../../../core/run_state';
 import type { Settings } from '../../../core/settings';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
 import { pressFix } from '../../commands/problem_commands';
-import { useMayEdit, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
+import { useChanges, useMayEdit, useSettings, useStudio, useTopic, useWindow } from '../../hooks';
 import { useNodeThen } from '../../past_hooks';
 import { useShownTheme } from '../../robot_hooks';
 import { text } from '../../text';
@@ -39,6 +40,9 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   const all = useTopic('findings', {})?.findings;
   const findings = useMemo(() => all?.filter((one) => one.doc === doc) ?? [], [all, doc]);
   const breakpoints = useTopic('breakpoints', {})?.breakpoints;
+  const logs = logLinesOf(studio);
+  useChanges(logs.changed);
+  const logged = logs.all;
   const handlers = script?.handlers;
   const { showWords } = settings;
   useEffectIn(
@@ -55,8 +59,12 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   useEffectIn(
     view,
     useCallback(
-      () => setBreaks.of((breakpoints ?? []).filter((one) => one.doc === doc).map(markOf)),
-      [breakpoints, doc],
+      () =>
+        setBreaks.of([
+          ...(breakpoints ?? []).filter((one) => one.doc === doc).map(markOf),
+          ...logged.filter((one) => one.doc === doc).map(logMarkOf),
+        ]),
+      [breakpoints, logged, doc],
     ),
   );
   useEffectIn(
@@ -104,6 +112,11 @@ function markOf(one: Breakpoint): BreakMark {
     label: `${words.breakpoint(line)}, ${words.hits(hits)}`,
     note: notes.join(', '),
   };
+}
+
+function logMarkOf({ line, values }: LogLine): BreakMark {
+  const { logPoint, logs } = text.editor;
+  return { line, kind: 'log', label: logPoint(line), note: values === '' ? '' : logs(values) };
 }
 
 /** Where the node is paused, and what the line's variables are. */

@@ -1,51 +1,70 @@
 import { useEffect, useRef, useState } from 'react';
+import { viewOf } from '../../../core/base64';
+import type { Past } from '../../../core/past';
+import type { Studio } from '../../../core/studio';
 import { readPicture } from '../../../core/world/frames';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio, useTopic } from '../../hooks';
-import { text } from '../../text';
+import { usePastTime } from '../../past_hooks';
+import { cameraWords } from './camera_words';
 import { useModel } from './desk';
 
 const kRate = 10;
 
-/** What the camera of the chosen robot sees, or of the first that has one. */
-export function CameraPicture({ model }: { model: WorldModel }) {
-  const { connection } = useStudio();
+/** What the camera of the chosen robot sees, or saw then; or that of the first that has one. */
+export default function CameraPicture({ model }: { model: WorldModel }) {
   const robots = useTopic('scene', {})?.robots ?? [];
   const chosen = useModel(model).chosen;
   const robot =
     robots.find((one) => one.camera && one.name === chosen?.name && chosen.kind === 'robot') ??
     robots.find((one) => one.camera);
-  const name = robot?.name;
+  const then = usePastTime() !== null;
+  return robot ? <Picture key={`${robot.name} ${then}`} robot={robot.name} then={then} /> : null;
+}
+
+/** What is said below a picture; none: why there is no picture. */
+type Show = (payload: DataView | null, caption: string) => void;
+
+function Picture({ robot, then }: { robot: string; then: boolean }) {
+  const studio = useStudio();
   const canvas = useRef<HTMLCanvasElement>(null);
-  const [seen, setSeen] = useState(false);
+  const [shown, setShown] = useState<{ caption: string; none: boolean } | null>(null);
   useEffect(() => {
-    if (name === undefined) return;
-    const end = connection.watch(
-      'picture',
-      { robot: name },
-      {
-        frame(_t, payload) {
-          const picture = readPicture(payload);
-          const context = canvas.current?.getContext('2d');
-          if (!picture || !canvas.current || !context) return;
-          canvas.current.width = picture.width;
-          canvas.current.height = picture.height;
-          context.putImageData(new ImageData(picture.pixels, picture.width, picture.height), 0, 0);
-          setSeen(true);
-        },
-      },
-      kRate,
-    );
-    return () => {
-      end();
-      setSeen(false);
-    };
-  }, [connection, name]);
-  if (name === undefined) return null;
+    const show: Show = (payload, caption) =>
+      setShown({ caption, none: payload === null || !draw(canvas.current, payload) });
+    return then ? watchThen(studio.past, robot, show) : watchNow(studio, robot, show);
+  }, [studio, robot, then]);
+  const none = shown?.none === true;
   return (
-    <figure className="world__camera" hidden={!seen}>
-      <canvas ref={canvas} role="img" aria-label={text.world.pictureOf(name)} />
-      <figcaption>{name}</figcaption>
+    <figure className="world__camera" hidden={shown === null} data-none={none || undefined}>
+      <canvas ref={canvas} role="img" aria-label={cameraWords.sees(robot)} hidden={none} />
+      <figcaption>{shown?.caption}</figcaption>
     </figure>
   );
+}
+
+function watchNow({ connection }: Studio, robot: string, show: Show): () => void {
+  const frame = (_t: number, payload: DataView) => show(payload, robot);
+  return connection.watch('picture', { robot }, { frame }, kRate);
+}
+
+function watchThen(past: Past, robot: string, show: Show): () => void {
+  const told = () => {
+    const { picture, picture_t: t } = past.instant ?? {};
+    if (!past.instant) return;
+    if (picture === undefined || t === undefined) show(null, cameraWords.none(robot));
+    else show(viewOf(picture), cameraWords.then(robot, t.toFixed(1)));
+  };
+  const ends = [past.changed.on(told), past.wants({ picture: robot })];
+  return () => ends.forEach((end) => end());
+}
+
+function draw(canvas: HTMLCanvasElement | null, payload: DataView): boolean {
+  const picture = readPicture(payload);
+  const context = canvas?.getContext('2d');
+  if (!picture || !canvas || !context) return false;
+  canvas.width = picture.width;
+  canvas.height = picture.height;
+  context.putImageData(new ImageData(picture.pixels, picture.width, picture.height), 0, 0);
+  return true;
 }

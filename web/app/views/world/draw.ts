@@ -173,7 +173,7 @@ function drawRays({ ctx, model, colours, view }: Scene): void {
   ctx.strokeStyle = colours.cone;
   ctx.fillStyle = colours.cone;
   ctx.lineWidth = 1.25 / view.scale;
-  for (const look of model.looks) {
+  for (const look of model.looks()) {
     const { from, to } = look;
     // Carbot's one look is a sonar: what it hears is a cone.
     if (model.robotAt(look.robot)?.type === 'carbot') {

@@ -243,7 +243,7 @@ export class SolidDrawer {
     const { model } = this;
     this.rays.begin();
     if (rays)
-      for (const { robot, from, to } of model.looks) {
+      for (const { robot, from, to } of model.looks()) {
         const thing = model.robotAt(robot);
         const z = (thing?.height ?? 0.05) * 0.5;
         this.rays.line(from, to, z);

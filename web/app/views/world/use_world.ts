@@ -4,6 +4,9 @@ import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from '
 import type { Doc, Path } from '../../../protocol/messages';
 import type { JsonFile } from '../../../core/session/json_file';
 import { folderOf, joinPath } from '../../../core/paths';
+import { bytesOf, viewOf } from '../../../core/base64';
+import type { Past } from '../../../core/past';
+import type { Studio } from '../../../core/studio';
 import { stageOfFile } from '../../../core/world/file';
 import { posesThen, readPoses, readRays } from '../../../core/world/frames';
 import { WorldModel } from '../../../core/world/model';
@@ -33,7 +36,6 @@ export function useLive(model: WorldModel, on: boolean): void {
   const drives = useMayAct();
   const scene = useTopic('scene', on ? {} : null);
   const world = useTopic('studio', {})?.project?.world;
-  // Nobody kept what a sensor looked at: the past is shown without.
   const looksBack = usePastTime() !== null;
   useEffect(() => {
     if (!on || !scene) return;
@@ -68,13 +70,9 @@ export function useLive(model: WorldModel, on: boolean): void {
     return () => ends.forEach((end) => end());
   }, [studio, model, on]);
   useEffect(() => {
-    if (!on || looksBack) return;
-    const end = studio.connection.watch(
-      'rays',
-      {},
-      { frame: (_t, payload) => model.setRays(readRays(payload)) },
-      kPosesRate,
-    );
+    if (!on) return;
+    const show = (payload: DataView) => model.setRays(readRays(payload));
+    const end = looksBack ? watchThen(studio.past, show) : watchNow(studio, show);
     return () => {
       end();
       model.setRays({ looks: [], lamps: [] });
@@ -82,6 +80,17 @@ export function useLive(model: WorldModel, on: boolean): void {
   }, [studio, model, on, looksBack]);
   // As the world that was opened has it.
   useImage(model, on ? scene?.image : undefined, world, scene?.opening ?? 0);
+}
+
+function watchNow({ connection }: Studio, show: (rays: DataView) => void): () => void {
+  return connection.watch('rays', {}, { frame: (_t, payload) => show(payload) }, kPosesRate);
+}
+
+function watchThen(past: Past, show: (rays: DataView) => void): () => void {
+  const told = () => past.instant?.rays !== undefined && show(viewOf(past.instant.rays));
+  const ends = [past.changed.on(told), past.wants({ rays: true })];
+  told();
+  return () => ends.forEach((end) => end());
 }
 
 /** Shows the file as its text says, also while nothing runs. */
@@ -182,6 +191,5 @@ function resolved(folder: Path, path: string): Path {
 }
 
 async function bitmapOf(base64: string): Promise<ImageBitmap> {
-  const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-  return createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+  return createImageBitmap(new Blob([bytesOf(base64)], { type: 'image/png' }));
 }

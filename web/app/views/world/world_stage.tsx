@@ -3,10 +3,9 @@ import { late } from '../../parts/late';
 import type { JsonFile } from '../../../core/session/json_file';
 import type { Point } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
-import { useStudio } from '../../hooks';
+import { useStudio, useTopic } from '../../hooks';
 import { usePastTime } from '../../past_hooks';
 import { text } from '../../text';
-import { CameraPicture } from './camera_picture';
 import { deskOf, useModel, type ShownWorld } from './desk';
 import { FlatView } from './flat_view';
 import { useWorldOptions } from './options';
@@ -17,6 +16,7 @@ import { canSolid } from './webgl';
 import { nameOfThing } from './words';
 
 const SolidView = late(() => import('./solid_view'));
+const CameraPicture = late(() => import('./camera_picture'), 'button');
 const RobotMenu = late(() => import('./robot_menu'), 'button');
 
 /** The picture of a world, with what is over it. All that can be done with it has keys, too. */
@@ -35,6 +35,7 @@ export function WorldStage({
   const eye = useRef<Eye | null>(null);
   const options = useWorldOptions();
   const looksBack = usePastTime() !== null;
+  const sees = useTopic('scene', {})?.robots.some((one) => one.camera) ?? false;
   const [failed, setFailed] = useState(false);
   useOnDesk(frame, model, file);
   const [menu, setMenu] = useState<Point | null>(null);
@@ -68,7 +69,11 @@ export function WorldStage({
         <PlacingNote model={model} />
         {children}
       </div>
-      {live && options.picture && !looksBack ? <CameraPicture model={model} /> : null}
+      {live && options.picture && sees ? (
+        <Suspense>
+          <CameraPicture model={model} />
+        </Suspense>
+      ) : null}
       {menu ? (
         <Suspense>
           <RobotMenu at={menu} onClose={() => (setMenu(null), frame.current?.focus())} />

@@ -7,7 +7,7 @@
 //         // Owners: the options of CLI11 that fill it, and the callback.
 //         auto options = std::make_shared<Options>();
 //         verb->add_option("FILE", options->file, "the script")->required();
-//         verb->callback([options, &exit_code] { exit_code = run(*options); });
+//         verb->callback([options, &exit_code] { exit_code = exec(*options); });
 //     }
 //
 // Every verb has an example in its footer (a test looks). Exit codes: 0 done, 1 the work failed, 2

@@ -2,7 +2,7 @@
 // It is stepped from outside (run/virtual_time.hpp), by its owner in the order of all plans.
 //
 //     auto plan = TRY(RobotPlan::load(robot));           // a RobotBus whose project has a plan
-//     TRY(plan->begin(seed, heard, see));                // its scripts run by now
+//     TRY(plan->begin(seed, heard, told));               // its scripts run by now
 //     plan->hear(std::move(event));                      // of the bus, for the next instant
 //     while (!plan->over() && plan->now() <= at) plan->step();
 #pragma once

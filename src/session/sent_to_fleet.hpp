@@ -3,7 +3,7 @@
 // still takes for new (fleet/limits.hpp).
 //
 //     SentToFleet sent;
-//     sent.add(number, frame);                   // of a member, numbers count up
+//     sent.add(number, its_frame);               // of a member, numbers count up
 //     const uint32_t frame = sent.frame_of(number);             // 0: not known any more
 #pragma once
 

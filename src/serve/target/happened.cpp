@@ -1,6 +1,7 @@
 #include "serve/target/happened.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "serve/json.hpp"
 

@@ -1,5 +1,7 @@
 #include "serve/workbench/turning_talk.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "serve/json.hpp"
 
 namespace vagus::serve {

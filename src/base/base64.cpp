@@ -7,7 +7,7 @@ namespace vagus {
 
 namespace {
 
-constexpr std::string_view kLetters =
+constexpr std::string_view kBase64Letters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 }  // namespace
@@ -23,7 +23,7 @@ std::string base64(std::string_view bytes) {
         }
         for (size_t i = 0; i < 4; ++i) {
             const bool filled = at + i <= bytes.size();
-            text += filled ? kLetters[group >> (18 - 6 * i) & 63] : '=';
+            text += filled ? kBase64Letters[group >> (18 - 6 * i) & 63] : '=';
         }
     }
     return text;
@@ -41,8 +41,8 @@ std::optional<std::string> from_base64(std::string_view text) {
     uint32_t group = 0;
     size_t bits = 0;
     for (const char letter : text.substr(0, letters)) {
-        const size_t value = kLetters.find(letter);
-        if (value == kLetters.npos) return std::nullopt;
+        const size_t value = kBase64Letters.find(letter);
+        if (value == kBase64Letters.npos) return std::nullopt;
         group = group << 6 | static_cast<uint32_t>(value);
         bits += 6;
         if (bits < 8) continue;

@@ -177,7 +177,7 @@ Status others_stay_when_one_goes(Bench& bench) {
 
 // No breakpoint is there: to clear it removes none of the others.
 Status clearing_none_takes_none(Bench& bench) {
-    TRY(load_two_stores(bench));
+    (void)TRY(load_two_stores(bench));
     TRY(set_breakpoint(bench, kSecond));
     TRY(bench.command(MessageType::BreakpointClear, {kSecond + 1}));
     TRY(bench.expect_silence());

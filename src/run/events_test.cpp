@@ -19,6 +19,16 @@ TEST(HeardEvents, ThoseBeforeTheOneThatIsWaitedForAreLetPass) {
     EXPECT_FALSE(heard.take(""));  // looking for `a` has let `c` pass
 }
 
+TEST(HeardEvents, OneThatWasHeardElsewhereTakesOnlyThoseBeforeItAlong) {
+    HeardEvents heard;
+    for (const char* name : {"a", "b", "c", "b"}) heard.push({name, {}});
+    heard.pass("d");
+    EXPECT_EQ(heard.all().size(), 4u);
+    heard.pass("b");
+    ASSERT_EQ(heard.all().size(), 2u);
+    EXPECT_EQ(heard.all().front().name, "c");
+}
+
 TEST(HeardEvents, OfTooManyTheOldestAreLost) {
     HeardEvents heard;
     for (size_t i = 0; i <= kKeptEventsMax; ++i) heard.push(numbered("e", i));

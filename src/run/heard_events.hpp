@@ -3,7 +3,9 @@
 // actor and the begin of the next.
 #pragma once
 
+#include <algorithm>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -23,6 +25,13 @@ public:
     const std::deque<BusEvent>& all() const { return events_; }
     void clear() { events_.clear(); }
     std::deque<BusEvent> take_all() { return std::exchange(events_, {}); }
+
+    // One has been heard elsewhere: those before it have been let pass, too. Nothing happens if it
+    // is not among these.
+    void pass(std::string_view name) {
+        const auto found = std::ranges::find(events_, name, &BusEvent::name);
+        if (found != events_.end()) events_.erase(events_.begin(), std::next(found));
+    }
 
     // The first of that name (empty: of any). Those before it have been let pass; all have, if none
     // is of that name.

@@ -99,7 +99,7 @@ private:
     bool timed_out_ = false;
     std::deque<plan::Command> commands_;  // not yet obeyed
     std::deque<Posted> taken_;            // of the inbox, not yet looked at
-    HeardEvents between_;                 // what came while no code ran; the next code hears it
+    HeardEvents between_;                 // arrived while no code ran; for the next code
     std::map<plan::WatchId, Watching> watching_;
     EndingChecks ending_;
     plan::ActivationId begin_due_ = 0;
@@ -323,7 +323,7 @@ void RealTime::Engine::take(CodeOver& message) {
     const auto found = code_.find(message.activation);
     if (found == code_.end()) return;
     const bool told = found->second->told;
-    // Code takes no time between its waits: what came since the last one comes after its end.
+    // Code takes no time between its waits: events since the last one arrive after its end.
     for (BusEvent& event : found->second->context->take_unheard()) {
         if (!told) between_.push(event);
     }
@@ -365,8 +365,8 @@ void RealTime::Engine::take(Checked& message) {
     if (message.failed) {
         machine_.fail_watch(message.watch, message.failure, now());
     } else if (message.given) {
-        // It is past for the code that begins next.
-        if (!watching.looks_at.empty()) between_.take(watching.looks_at);
+        // The code that starts next does not hear it again.
+        between_.pass(watching.looks_at);
         machine_.raise(message.watch, *message.given, now());
     }
 }

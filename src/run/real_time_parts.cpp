@@ -264,7 +264,7 @@ void LiveContext::listen(std::vector<std::string> names) {
 // A wait has ended with that event: it and those before it are past. Without one, all are.
 void LiveContext::pass(const std::optional<BusEvent>& taken) {
     if (!taken) return unheard_.clear();
-    unheard_.take(taken->name);
+    unheard_.pass(taken->name);
 }
 
 ActorContext::Woken LiveContext::wait(Duration at_most, std::string_view event) {

@@ -128,17 +128,23 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
 
 void CompareTape::end() {
     over_ = true;
-    const auto missing = [&](const std::string& topic, Time when, const std::string& data) {
-        if (when > until_) return;
-        differs({.at = when, .topic = topic, .place = {}, .then = data, .now = {}});
-    };
-    for (const auto& [topic, kept] : ahead_) {
-        if (!kept.empty()) missing(topic, kept.front().at, kept.front().data);
-    }
     while (const auto message = cursor_.next()) {
         const mcap::Channel* const channel = reader_.channel(message->channel);
         if (channel == nullptr || !counts(channel->topic)) continue;
-        missing(channel->topic, time_of(message->log_time), std::string(message->data));
+        std::deque<Recorded>& kept = ahead_[channel->topic];
+        if (!kept.empty()) continue;  // the first tells where it differs
+        kept.push_back({time_of(message->log_time), std::string(message->data)});
+    }
+    // A rerun up to an instant stops at its end. An input that was recorded behind it is not
+    // repeated, nor is what followed from that input at the same time.
+    const auto inputs = ahead_.find(std::string(kInputTopic));
+    const bool input_behind =
+        inputs != ahead_.end() && !inputs->second.empty() && inputs->second.front().at == until_;
+    for (const auto& [topic, kept] : ahead_) {
+        if (kept.empty()) continue;
+        const auto& [at, data] = kept.front();
+        if (at > until_ || (input_behind && at == until_)) continue;
+        differs({.at = at, .topic = topic, .place = {}, .then = data, .now = {}});
     }
 }
 

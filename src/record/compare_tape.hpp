@@ -45,7 +45,8 @@ public:
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string data) override;
     void put_later(uint16_t topic, Time at, size_t, Word word) override { put(topic, at, word()); }
-    // All that was recorded must have come again; nothing more is compared.
+    // All that was recorded must have come again, but for an input behind the instant `until`, and
+    // what followed from it then. Nothing more is compared.
     void end();
     // A difference that is found later may be of an earlier instant, until end().
     const std::optional<Difference>& difference() const { return difference_; }

@@ -46,8 +46,7 @@ Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
     const std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, how));
     const auto wishes = TRY(wanted.wishes(*rerun));
     const auto points = TRY(LogPoints::set(wishes, buses_of(*rerun), wanted.told));
-    // A file that is still written may lack a part of its last instant.
-    CompareTape tape(reader, {}, reader.is_complete() ? until : until - Time(1));
+    CompareTape tape(reader, {}, until);
     LogPlaces places(*points, [&] { return wanted.settled(*rerun); });
     follow(*rerun, *points);
     rerun->each_instant([&](Time at) {

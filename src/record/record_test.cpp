@@ -262,6 +262,52 @@ TEST(FileTape, ARunInVirtualTimeWaitsForTheDisk) {
     EXPECT_EQ(count, 150u);
 }
 
+// ---- what has not come again ----
+
+// A recording of these messages: instant, topic, data.
+struct Told {
+    Time at;
+    std::string_view topic;
+    std::string data;
+};
+std::optional<Difference> missing(const std::vector<Told>& recorded, Time until) {
+    std::string bytes;
+    mcap::Writer writer([&bytes](std::string_view more) {
+        bytes += more;
+        return Status::done();
+    });
+    std::map<std::string_view, uint16_t> channels;
+    for (const Told& one : recorded) {
+        auto [channel, is_new] = channels.try_emplace(one.topic);
+        if (is_new) {
+            channel->second =
+                writer.add_channel({.topic = std::string(one.topic), .encoding = "json"});
+        }
+        writer.write(channel->second, static_cast<uint64_t>(one.at.count()) * 1000, one.data);
+    }
+    EXPECT_TRUE(writer.end().ok());
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    EXPECT_TRUE(reader.ok());
+    CompareTape tape(reader.value(), {}, until);
+    tape.end();
+    return tape.difference();
+}
+
+TEST(CompareTape, AnInputBehindTheLastInstantIsNotMissed) {
+    const std::vector<Told> recorded = {{1s, kInputTopic, "{}"}, {1s, kTraceTopic, "{}"}};
+    EXPECT_FALSE(missing(recorded, 1s));
+    ASSERT_TRUE(missing(recorded, 1001ms));
+    EXPECT_EQ(missing(recorded, 1001ms)->at, 1s);
+    EXPECT_TRUE(missing(recorded, Time::max()));
+}
+
+TEST(CompareTape, WithoutAnInputAllOfTheLastInstantMustComeAgain) {
+    const std::vector<Told> recorded = {{1s, kTraceTopic, "{}"}};
+    ASSERT_TRUE(missing(recorded, 1s));
+    EXPECT_EQ(missing(recorded, 1s)->topic, kTraceTopic);
+    EXPECT_TRUE(missing({{500ms, kInputTopic, "{}"}, {1s, kInputTopic, "{}"}}, 1s));
+}
+
 // ---- worlds that are run again ----
 
 struct Recorded {

@@ -200,7 +200,8 @@ async function load(studio: Studio, node: number): Promise<void> {
   const { loaded, failed } = await studio.send('node.load', { node });
   reportFailed(studio, failed);
   const name = robotOf(studio)?.nodes.find((one) => one.id === loaded[0])?.name;
-  if (name && node !== 0) toast(studio.window, 'ok', text.editor.loaded(name));
+  if (name && loaded.length === 1) toast(studio.window, 'ok', text.editor.loaded(name));
+  else if (loaded.length > 0) toast(studio.window, 'ok', text.editor.loadedAll(loaded.length));
 }
 
 async function keep(studio: Studio): Promise<void> {

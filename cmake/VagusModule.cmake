@@ -41,7 +41,7 @@ endif()
 # vagus_bundle(OUT NAME MAX count source…): the sources of each folder in files that include some of them each, so that a header is
 # read and a template made once for all. Names in anonymous namespaces are then shared: a second one is an error, and
 # usually a duplicate. What is given options of its own, generated, or listed in ALONE is compiled alone. Folders of a
-# few sources share a bundle if TOGETHER names them in one word (follow+life+run; + alone is the module's own folder).
+# few sources share a bundle if TOGETHER names them in one word (follow+life+run; +run: the module's own folder, and run).
 # The paths in a bundle are those from src/: any other checkout makes the same one.
 function(vagus_bundle out name)
   cmake_parse_arguments(B "" "MAX" "ALONE;TOGETHER" ${ARGN})

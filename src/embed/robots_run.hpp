@@ -55,7 +55,7 @@ public:
     // buses().robots().
     using Listener = std::function<void(size_t robot, const plan::TraceEvent&)>;
     void listen(Listener told) { told_ = std::move(told); }
-    // Before start(): is told more, for one who asks why. Borrowed; nullptr: nobody.
+    // Before start(): is told what `vagus why` needs beside the trace. Borrowed; nullptr: nobody.
     void watch(RobotsWatcher* watcher) { watcher_ = watcher; }
     // From now on all that is random is drawn from that seed: in the world, in plans, on the ways
     // of the fleet.

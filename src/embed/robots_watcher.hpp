@@ -1,5 +1,5 @@
-// Is told what the plans of several robots do, and what comes to these robots over their fleet: for
-// one who asks why.
+// Is told what the plans of several robots do, and what reaches these robots over their fleet:
+// `vagus why`, log points and turning points listen.
 //
 //     class Log final : public embed::RobotsWatcher { … };
 //     run.watch(&log);                                   // a RobotsRun, before its start()
@@ -50,7 +50,7 @@ public:
     RobotsWatcher& operator=(const RobotsWatcher&) = delete;
     virtual ~RobotsWatcher() = default;
 
-    // What one does not ask for passes unseen.
+    // A watcher overrides what it needs.
 
     // A line of the trace of its plan.
     virtual void line(size_t /*robot*/, const plan::TraceEvent&) {}

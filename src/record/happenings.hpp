@@ -1,5 +1,6 @@
-// What happened in the world of a run that is run again, that no script and no plan did: contacts,
-// the timeline, people, faults. Collected while the run goes on, for one who asks why.
+// What happened in the world of a run that is run again, and was done by no script and no plan:
+// contacts, the timeline, people, faults. Collected during the rerun: chains of `vagus why` end
+// here.
 //
 //     Happenings happenings(*rerun);                // before rerun->run()
 //     …

@@ -37,7 +37,6 @@ void PlanBusTap::hears(const run::BusEvent& event, Time at) {
     recorder_.input_at(at, std::move(heard));
 }
 
-// Once: more than one may ask for it.
 void PlanBusTap::asked(const run::Request& request, Time at) {
     const bool goes_on = std::holds_alternative<run::Continue>(request) ||
                          std::holds_alternative<run::Step>(request) ||
@@ -46,6 +45,7 @@ void PlanBusTap::asked(const run::Request& request, Time at) {
     recorder_.input_at(at, request);
 }
 
+// Once: more than one may ask for it.
 void PlanBusTap::aborts(const std::string& by) {
     if (!aborted_.exchange(true)) recorder_.input_at(now(), Aborted{by});
 }

@@ -58,8 +58,8 @@ void Walk::message(const BusCauses::Message& message) {
     if (sender && message.frame != 0) on_bus(*sender, [&] { frame(message.frame); });
 }
 
-// Who waits for an answer goes on when that has come, whatever else there is. Where several could
-// have been it, nothing is told of what each followed from.
+// A plan that waits for an answer continues when the answer arrives, whatever else is new. If
+// several news could have been the cause, the chain names how many there were, and ends.
 void Walk::news(const BusCauses::News& news) {
     if (const auto* const over = only<keeper::Over>(news.items)) {
         return answer_of_keeper(news.at, *over);

@@ -45,11 +45,11 @@ public:
     // For who has but the deciding thread: called again and again while the run is paused and no
     // request waits, instead of blocking. It may post(). Set it before the run.
     void while_paused(std::function<void()> meanwhile);
-    // For who records what is asked, and who asks the same again in the same run: called on the
-    // deciding thread. Set it before the run.
+    // For recording requests, and for repeating them in a rerun: called on the deciding thread. Set
+    // it before the run.
     struct Follower {
-        // Each time that a request may be taken: how many decisions there were in this run. In
-        // virtual time a number is the same place in each run. It may post().
+        // Before a request may be taken, with the number of decisions so far. In virtual time a
+        // number is the same point of every run. It may post().
         std::function<void(uint64_t place, Time)> comes = {};
         // Before a request is done.
         std::function<void(const Request&, Time)> asked = {};

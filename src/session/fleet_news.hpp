@@ -1,5 +1,5 @@
-// What there is new for a plan that asks its fleet: how a question to the keeper has ended, a
-// shared value, who is online. For one who asks why.
+// News for a plan that asks its fleet: how a question to the keeper ended, a shared value, which
+// robot is online. `vagus why` is told of them.
 #pragma once
 
 #include <string>

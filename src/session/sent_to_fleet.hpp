@@ -1,6 +1,6 @@
-// Which frame of its bus each event was that a robot has sent to its fleet, by the number that the
-// event has there: so that one who hears it can be told where it came from. As many as a member
-// still takes for new (fleet/limits.hpp).
+// The frame of its own bus for each event that a robot sent to its fleet, by the number of the
+// event in the fleet. So the robot that hears the event knows where it came from. As many are kept
+// as a member still accepts as new (fleet/limits.hpp).
 //
 //     SentToFleet sent;
 //     sent.add(number, its_frame);               // of a member, numbers count up

@@ -76,7 +76,7 @@ public:
     // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker, or was not
     // to ask.
     toolbox::Fleet* asked_by(sim::RobotId robot);
-    // Before join(): ears are told more, for one who asks why.
+    // Before join(): ears are also told what `vagus why` needs.
     void watch() { watched_ = true; }
     // From now on the chance of the ways is drawn from that seed.
     void reseed(uint64_t seed) { broker_.reseed(seed); }

@@ -34,7 +34,7 @@ struct ScriptCoverage {
     std::map<int, uint64_t> lines;  // how often the busiest instruction of a line was executed
     // By line, and number among its branches: how often the condition held, and did not.
     std::map<std::pair<int, int>, std::array<uint64_t, 2>> branches;
-    // Of a real robot: these lines are those that frames tell of; nothing is known of others.
+    // Of a real robot: only these lines are proved by frames; nothing is known about others.
     bool only_told = false;
 };
 

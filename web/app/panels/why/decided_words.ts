@@ -8,7 +8,7 @@ export const decidedWords = {
   form: 'When was it decided?',
   condition: 'Condition',
   example: 'contact >= 2',
-  how: 'The run is continued again and again with other chance (noise of sensors and wheels, random numbers of scripts), and counted in how many continuations the condition becomes true. Conditions are those of tests: contact >= 2, actor == "backup", event == "LaneNotFree", x < 0.2.',
+  how: 'The run is continued many times with different noise of sensors and wheels and different random numbers. The answer is the share of continuations in which the condition becomes true. Conditions are written as in tests: contact >= 2, actor == "backup", event == "LaneNotFree", x < 0.2.',
   tries: 'Tries',
   triesHelp: 'Continuations from each instant',
   ask: 'Ask',
@@ -16,7 +16,6 @@ export const decidedWords = {
   progress: 'Continuations',
   of: (done: number, of: number) => `${done} of ${of}`,
   stopped: 'Stopped.',
-  failed: (why: string) => why,
   earlier: 'This was asked of a run before this one.',
   came: (t: string) => `In this run it became true at ${t} s.`,
   never: (t: string) => `In this run it did not become true by ${t} s.`,
@@ -32,7 +31,7 @@ export const decidedWords = {
   percent: (low: number, high: number) =>
     `${Math.round(low * 100)} % to ${Math.round(high * 100)} %`,
   look: (t: string) => `Look at ${t} s`,
-  there: 'What there was',
+  there: 'What happened there',
   with: 'Open a continuation in which it becomes true',
   without: 'Open a continuation in which it does not',
   noOther: (comes: boolean) =>
@@ -42,8 +41,8 @@ export const decidedWords = {
 };
 
 export const stageWords: Record<Stage, string> = {
-  run: 'The run is run again…',
-  curve: 'It is continued from instants over all of it…',
-  narrowing: 'It is continued from instants in between…',
-  recordings: 'Two continuations are recorded…',
+  run: 'Running it again…',
+  curve: 'Continuing it from instants throughout the run…',
+  narrowing: 'Narrowing down the instant…',
+  recordings: 'Recording two continuations…',
 };

@@ -87,6 +87,12 @@ int complain(const Error& error, int exit_code) {
     return complain(error.what, exit_code);
 }
 
+void complain_left_out(std::string_view file, uint64_t samples, std::string_view of) {
+    if (samples == 0) return;
+    complain(std::string(file) + ": the disk was too slow, " + std::to_string(samples) +
+             " samples of " + std::string(of) + " were left out");
+}
+
 OutputNeverWaits::OutputNeverWaits(Duration patience) {
     Unwaiting& its = unwaiting();
     const std::lock_guard lock(its.mutex);

@@ -2,6 +2,7 @@
 // so that a program that reads along sees each line when it is made.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "base/result.hpp"
@@ -15,7 +16,8 @@ constexpr int kExitUsage = 2;
 
 // Lines for people and JSON on stdout; what a terminal would obey (names from anywhere may hold it)
 // is escaped (visible_lines). False once nobody reads there any more (`vagus … | head -1`), or the
-// disk is full: a verb that runs on ends then. SIGPIPE never ends the process (main.cpp).
+// disk is full: a verb that runs on ends then. SIGPIPE never ends the process: see
+// prepare_standard_files().
 bool print(std::string_view text);
 
 // The content of a file on stdout, byte for byte; only on a terminal as print().
@@ -32,6 +34,10 @@ void say(std::string_view lines);
 // complain(…)`.
 int complain(std::string_view sentence, int exit_code = kExitFailed);
 int complain(const Error& error, int exit_code = kExitFailed);
+
+// That the disk was too slow for a recording: how many samples of what were left out. Says nothing
+// for 0.
+void complain_left_out(std::string_view file, uint64_t samples, std::string_view of);
 
 // While it lives, print(), say() and complain() never wait for a reader, for a verb that others
 // rely on meanwhile: a bus, a robot, a node that is examined. Lines that nobody takes in time are

@@ -231,12 +231,8 @@ Status LogPoints::add_element(size_t number, const LogWish& wish) {
 
 Status LogPoints::check_robot(const LogWish& wish, const std::string& robot) const {
     if (robot.empty() || world_session()->world().find_robot(robot)) return Status::done();
-    std::vector<std::string> known;
-    for (const sim::RobotDefinition& one : world_session()->world().definition().robots) {
-        known.push_back(one.name);
-    }
     return refuse(Code::NotFound, wish,
-                  fmt::format("there is no robot \"{}\"; {}", robot, known_instead(robot, known)));
+                  sim::no_robot(world_session()->world().definition(), robot, ""));
 }
 
 // `place`: "@takeTask.enter", "@Pick/takeTask.enter".

@@ -71,13 +71,9 @@ Status check_lived(const PastRun& past, const std::string& path) {
                                         ": is of a run with answers instead of a robot; "
                                         "`vagus replay` runs it again"};
     }
-    if (!past.about.robots.empty()) {
-        return Error{Code::Refused,
-                     fmt::format("{}: is of a world in which {} robots have projects of their own, "
-                                 "which the studio does not run; in a terminal `vagus replay`, "
-                                 "`vagus why` and `vagus compare` are asked about it",
-                                 path, past.about.robots.size())};
-    }
+    TRY(check_no_fleet(past.about, path,
+                       ", which the studio does not run; in a terminal `vagus replay`, `vagus "
+                       "why` and `vagus compare` are asked about it"));
     if (past.about.verb != kStudioVerb && past.about.plan.empty()) {
         return Error{Code::Refused, path +
                                         ": is of a world without a plan, recorded by `vagus "

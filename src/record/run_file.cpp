@@ -99,6 +99,13 @@ Result<RunFile> read_run(std::string_view text, const std::string& name) {
     return run;
 }
 
+Status check_no_fleet(const RunFile& run, const std::string& name, std::string_view instead) {
+    if (run.robots.empty()) return Status::done();
+    return Error{Code::Refused,
+                 fmt::format("{}: is of a world in which {} robots have projects of their own{}",
+                             name, run.robots.size(), instead)};
+}
+
 std::string PackedFiles::name_of(const std::string& path) const {
     return path.empty() ? "" : absolute(path).lexically_relative(root).generic_string();
 }

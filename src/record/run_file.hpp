@@ -55,6 +55,10 @@ std::string format_run(const RunFile& run);
 // The Error names what is wrong; `name` is the recording, for its sentence.
 Result<RunFile> read_run(std::string_view text, const std::string& name);
 
+// What is of one plan cannot be of a world whose robots have projects of their own. The Error says
+// so, then `instead`: "; record one that …".
+Status check_no_fleet(const RunFile& run, const std::string& name, std::string_view instead);
+
 struct PackedFiles {
     std::string root;                          // the folder below which all of them are
     std::map<std::string, std::string> files;  // by name: the path from there

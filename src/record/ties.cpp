@@ -11,22 +11,23 @@ namespace vagus::record {
 
 namespace {
 
-// The plan of that bus in another rerun.
-const embed::LoadedPlan* plan_of(Rerun& rerun, const BusCauses& bus) {
-    for (const RunBus& one : rerun.buses()) {
-        if (one.robot == bus.bus().robot) return one.plan;
-    }
-    return nullptr;
+// Where that bus is among those of another rerun, which has the same.
+size_t place_of(Rerun& rerun, const BusCauses& bus) {
+    const std::vector<RunBus> buses = rerun.buses();
+    const auto found = std::ranges::find(buses, bus.bus().robot, &RunBus::robot);
+    return static_cast<size_t>(found - buses.begin());
 }
 
 // Follows a rerun in which the event of one line is passed over.
 class Tie final : private embed::RobotsWatcher {
 public:
     Tie(Rerun& rerun, const BusCauses& bus, size_t index)
-        : rerun_(rerun), places_(rerun, plan_of(rerun, bus)), lines_(bus.lines()), index_(index) {
-        robot_ = bus.bus().robot;
-        for (const RunBus& one : rerun.buses()) robots_.push_back(one.robot);
-        if (!robot_.empty()) {
+        : rerun_(rerun),
+          bus_(place_of(rerun, bus)),
+          places_(rerun, rerun.buses()[bus_].plan),
+          lines_(bus.lines()),
+          index_(index) {
+        if (bus_ > 0) {
             rerun.watch_robots(this);
             return;
         }
@@ -40,10 +41,10 @@ public:
 private:
     // ---- embed::RobotsWatcher; the first bus is that of no robot ----
     bool passes_over(size_t robot, const run::Raising& raising) override {
-        return robots_[robot + 1] == robot_ && passes(raising);
+        return robot + 1 == bus_ && passes(raising);
     }
     void line(size_t robot, const plan::TraceEvent& event) override {
-        if (robots_[robot + 1] == robot_) see(event);
+        if (robot + 1 == bus_) see(event);
     }
 
     Time at() const { return lines_[index_].event.at; }
@@ -89,11 +90,10 @@ private:
     }
 
     Rerun& rerun_;
+    size_t bus_;  // whose plan it is; 0: the common one
     PlanPlaces places_;
     const std::vector<BusCauses::Line>& lines_;
     size_t index_;
-    std::string robot_;  // whose plan it is; empty: that of the common bus
-    std::vector<std::string> robots_;
     size_t seen_ = 0;  // lines
     bool passed_ = false;
     bool over_ = false;

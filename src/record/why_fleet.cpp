@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/nearest.hpp"
 #include "base/text.hpp"
 #include "record/why_walk.hpp"
 
@@ -92,11 +91,8 @@ Status Walk::ask_fleet(Question question) {
 Status Walk::ask_robot(Question question) {
     const sim::World& world = session()->world();
     if (!world.find_robot(question.robot)) {
-        std::vector<std::string> known;
-        for (const sim::RobotDefinition& one : world.definition().robots) known.push_back(one.name);
         return Error{Code::NotFound,
-                     fmt::format("there is no robot \"{}\" in this run; {}", question.robot,
-                                 known_instead(question.robot, known))};
+                     sim::no_robot(world.definition(), question.robot, " in this run")};
     }
     const std::optional<size_t> bus = all_.bus_of(question.robot);
     const bool of_plan = question.about == About::Actor || question.about == About::End;

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "base/nearest.hpp"
+
 namespace vagus::sim {
 
 std::string_view name_of(ObjectKind kind) {
@@ -60,6 +62,14 @@ std::span<const std::string_view> buttons_of(RobotType type) {
             return kCarbot;
     }
     return {};
+}
+
+std::string no_robot(const WorldDefinition& world, const std::string& name,
+                     std::string_view where) {
+    std::vector<std::string> known;
+    for (const RobotDefinition& robot : world.robots) known.push_back(robot.name);
+    return "there is no robot \"" + name + "\"" + std::string(where) + "; " +
+           known_instead(name, known);
 }
 
 }  // namespace vagus::sim

@@ -174,6 +174,10 @@ struct WorldDefinition {
     bool operator==(const WorldDefinition&) const = default;
 };
 
+// The sentence for a name that no robot of the world has: "there is no robot "x" in this world; did
+// you mean xy?". `where`: " in this world".
+std::string no_robot(const WorldDefinition& world, const std::string& name, std::string_view where);
+
 // "wall", "thymio2": as in the file.
 std::string_view name_of(ObjectKind kind);
 std::string_view name_of(RobotType type);

@@ -89,11 +89,7 @@ Status put_at_starts(WorldDefinition& definition, const std::vector<RobotStart>&
             std::find_if(definition.robots.begin(), definition.robots.end(),
                          [&](const RobotDefinition& robot) { return robot.name == start.robot; });
         if (found == definition.robots.end()) {
-            std::vector<std::string> names;
-            for (const RobotDefinition& robot : definition.robots) names.push_back(robot.name);
-            return Error{Code::NotFound, "there is no robot \"" + start.robot +
-                                             "\" in this world; " +
-                                             known_instead(start.robot, names)};
+            return Error{Code::NotFound, no_robot(definition, start.robot, " in this world")};
         }
         found->at = start.pose.at;
         found->angle = start.pose.angle;

@@ -6,7 +6,6 @@
 #include <charconv>
 
 #include "base/json.hpp"
-#include "base/nearest.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/robots_watcher.hpp"
 #include "record/causes.hpp"
@@ -109,8 +108,6 @@ Status Continued::choose_bus(const std::string& robot) {
                                  robot, reader_.name())};
     }
     const sim::World& world = rerun_->session()->world();
-    std::vector<std::string> known;
-    for (const sim::RobotDefinition& one : world.definition().robots) known.push_back(one.name);
     if (robot.empty()) {
         return Error{Code::BadInput,
                      fmt::format("{}: --turning-point needs to know whose condition it is, for {} "
@@ -120,8 +117,7 @@ Status Continued::choose_bus(const std::string& robot) {
     }
     const auto found = world.find_robot(robot);
     if (!found) {
-        return Error{Code::NotFound, fmt::format("there is no robot \"{}\" in this run; {}", robot,
-                                                 known_instead(robot, known))};
+        return Error{Code::NotFound, sim::no_robot(world.definition(), robot, " in this run")};
     }
     for (size_t i = 1; i < buses.size(); ++i) {
         if (buses[i].robot == robot) bus_index_ = i;

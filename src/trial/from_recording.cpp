@@ -193,14 +193,9 @@ std::vector<std::string> hints_of(const Recorded& recorded) {
 Result<Draft> draft_test(const mcap::Reader& reader) {
     const Recorded recorded = TRY(read_recorded(reader));
     const Told& told = recorded.told;
-    if (!recorded.run.robots.empty()) {
-        return Error{
-            Code::Refused,
-            fmt::format("{}: is of a world in which {} robots have projects of their own; "
-                        "a test is of one plan and its robot: record that with `vagus plan "
-                        "run … --record FILE`",
-                        reader.name(), recorded.run.robots.size())};
-    }
+    TRY(record::check_no_fleet(recorded.run, reader.name(),
+                               "; a test is of one plan and its robot: record that with `vagus "
+                               "plan run … --record FILE`"));
     if (recorded.run.plan.empty()) {
         return Error{Code::Refused, reader.name() +
                                         ": is the recording of a world without a plan; a test is "

@@ -120,13 +120,9 @@ std::string RecordedRuns::name_of(const mcap::Reader& reader, const std::string&
 Result<CountedRun> RecordedRuns::add(const mcap::Reader& reader) {
     const auto rerun = TRY(record::Rerun::open(reader, {}));
     const record::RunFile& about = rerun->about();
-    if (!about.robots.empty()) {
-        return Error{Code::Refused,
-                     fmt::format("{}: is of a world in which {} robots have projects of their own; "
-                                 "coverage counts what one plan went through: record it with "
-                                 "`vagus plan run … --record FILE`",
-                                 reader.name(), about.robots.size())};
-    }
+    TRY(record::check_no_fleet(about, reader.name(),
+                               "; coverage counts what one plan went through: record it with "
+                               "`vagus plan run … --record FILE`"));
     if (rerun->plan() == nullptr) {
         return Error{Code::Refused, reader.name() +
                                         ": is the recording of a run without a plan, and what a "

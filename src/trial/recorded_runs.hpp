@@ -1,14 +1,13 @@
-// What recorded runs went through, also those of real robots: of plans all that their traces tell;
-// of scripts on the nodes of a real bus the lines that frames tell of: that alone can have sent the
-// event of a frame.
+// Coverage of recorded runs, also of real robots: of plans, everything in their traces; of scripts
+// on the nodes of a real bus, the lines that frames prove, because no other line sends that event.
 //
 //     RecordedRuns recorded;
 //     recorded.know("WallFollow.plan.json", text);    // a file of other runs that are counted
 //     const CountedRun one = TRY(recorded.add(reader));
 //     all.add(recorded.coverage());
 //
-// A file of a recording that says the same as one that is known is that one. Others are counted
-// apart: who has changed a plan has not run it yet.
+// A file of a recording with the same content as a known file counts as that file. Other versions
+// are counted separately: a plan that was changed has not been run yet.
 #pragma once
 
 #include <map>

@@ -136,10 +136,7 @@ Verdict net_record(NetSession& session, const std::string& path, const FilesRead
     const Status followed = follow(session, file);
     const Time at = file.at();
     const Status written = file.end(followed.ok() ? "" : followed.error().what);
-    if (file.dropped() > 0) {
-        complain(fmt::format("{}: the disk was too slow, {} samples of variables were left out",
-                             path, file.dropped()));
-    }
+    complain_left_out(path, file.dropped(), "variables");
     say(fmt::format("{}: {} s, {} frames\n", path, seconds_text(at), file.frames()));
     TRY(followed);
     TRY(written);

@@ -109,11 +109,7 @@ void TerminalRun::end_recording() {
     if (!recording_) return;
     const Status written = recording_->end();
     if (!written.ok()) complain(written.error());
-    const uint64_t dropped = recording_->dropped();
-    if (dropped > 0) {
-        complain(record_ + ": the disk was too slow, " + std::to_string(dropped) + " samples" +
-                 " of variables, poses and cameras were left out");
-    }
+    complain_left_out(record_, recording_->dropped(), "variables, poses and cameras");
     recording_.reset();
 }
 

@@ -67,10 +67,9 @@ void add_compare(CLI::App& app, int& exit_code) {
         "Tells, for each lane, the first difference, the earliest before the others: what came "
         "from outside, the trace of the plan, events of the bus, the variables of each node, the "
         "pose of each robot and loose object, the world, the end. Robots with projects of their "
-        "own "
-        "have lanes of their own. Before them, what the two were "
-        "started with, where that is not the same. Beyond the end of the shorter one nothing is "
-        "compared.\nExit codes: 0 no difference, 1 differences, 2 not valid.\n\nExample:\n"
+        "own have lanes of their own. Before them, what the two were started with, where that is "
+        "not the same. Beyond the end of the shorter one nothing is compared.\n"
+        "Exit codes: 0 no difference, 1 differences, 2 not valid.\n\nExample:\n"
         "  vagus compare monday.mcap tuesday.mcap\n"
         "  vagus compare monday.mcap tuesday.mcap --align actor followWall");
     verb->callback([options, &exit_code] { exit_code = compare(*options); });

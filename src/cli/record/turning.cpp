@@ -8,7 +8,6 @@
 #include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
-#include "cli/record/turning_search.hpp"
 #include "cli/test/pool.hpp"
 #include "net/end_signal.hpp"
 
@@ -21,7 +20,7 @@ CLI::Option* add_turning_options(CLI::App& verb, TurningOptions& options) {
                         "about, or does not");
     turning->type_name("CONDITION");
     CLI::Option* const tries =
-        verb.add_option("--tries", options.tries,
+        verb.add_option("--tries", options.search.tries,
                         fmt::format("with --turning-point: continuations from each instant ({})",
                                     trial::kTriesUsual));
     takes_whole_number(*tries, 1, trial::kTriesMax);
@@ -31,11 +30,11 @@ CLI::Option* add_turning_options(CLI::App& verb, TurningOptions& options) {
                         "the recording)");
     until->type_name("S");
     CLI::Option* const at_once = verb.add_option(
-        "-j", options.at_once,
+        "-j", options.search.at_once,
         "with --turning-point: continuations that run at once (one for each processor)");
     takes_whole_number(*at_once, 1, kJobsAtOnceMax);
     CLI::Option* const results =
-        verb.add_option("--results", options.results,
+        verb.add_option("--results", options.search.results,
                         "with --turning-point: where the two continuations go (turning-point)");
     results->type_name("FOLDER");
     for (CLI::Option* const one : {tries, until, at_once, results}) one->needs(turning);
@@ -46,9 +45,10 @@ namespace {
 
 // All that it holds, a folder of files among it, is gone when this returns.
 int tell(const TurningOptions& options) {
-    const auto file = MappedFile::open(options.file);
+    const TurningSearch& search = options.search;
+    const auto file = MappedFile::open(search.file);
     if (!file.ok()) return complain(file.error(), kExitUsage);
-    const auto reader = mcap::Reader::open(file.value().bytes(), options.file);
+    const auto reader = mcap::Reader::open(file.value().bytes(), search.file);
     if (!reader.ok()) return complain(reader.error(), kExitUsage);
     if (options.until && !(*options.until > 0)) {
         return complain(
@@ -58,13 +58,8 @@ int tell(const TurningOptions& options) {
     std::optional<Time> until;
     if (options.until) until = from_seconds(*options.until);
     const auto continued =
-        trial::Continued::open(reader.value(), options.condition, until, options.robot);
+        trial::Continued::open(reader.value(), options.condition, until, search.robot);
     if (!continued.ok()) return complain(continued.error(), kExitUsage);
-    const TurningSearch search{.file = options.file,
-                               .tries = static_cast<int>(options.tries),
-                               .at_once = static_cast<size_t>(options.at_once),
-                               .results = options.results,
-                               .robot = options.robot};
     const auto told = find_turning_point(*continued.value(), reader.value(), search,
                                          [](const SearchProgress&) { return true; });
     if (net::end_asked()) return kExitFailed;

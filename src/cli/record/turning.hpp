@@ -4,11 +4,10 @@
 //     exit_code = tell_turning(options);
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "trial/turning.hpp"
+#include "cli/record/turning_search.hpp"
 
 namespace CLI {
 class App;
@@ -18,13 +17,9 @@ class Option;
 namespace vagus::cli {
 
 struct TurningOptions {
-    std::string file;
+    TurningSearch search;
     std::string condition;
-    std::string robot;  // whose it is, where robots have projects of their own
-    int64_t tries = trial::kTriesUsual;
     std::optional<double> until;  // s; empty: the end of the recording
-    int64_t at_once = 0;          // 0: as many as there are processors
-    std::string results = "turning-point";
     bool json = false;
 };
 

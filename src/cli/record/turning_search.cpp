@@ -24,10 +24,11 @@ constexpr char kAnswer = '=', kWrong = '!', kFailed = '?';
 // in a copy of itself for each seed.
 class Asker {
 public:
-    Asker(trial::Continued& continued, size_t at_once, const TellSearch& told)
+    Asker(trial::Continued& continued, int64_t at_once, const TellSearch& told)
         : continued_(continued), told_(told) {
         const size_t processors = std::max(1u, std::thread::hardware_concurrency());
-        at_once_ = at_once > 0 ? at_once : std::min<size_t>(processors, kJobsAtOnceMax);
+        at_once_ = at_once > 0 ? static_cast<size_t>(at_once)
+                               : std::min<size_t>(processors, kJobsAtOnceMax);
     }
 
     Result<trial::RunEnd> as_it_was() {
@@ -171,7 +172,7 @@ Result<trial::TurningTold> find_turning_point(trial::Continued& continued,
     found.run = TRY(asker.as_it_was());
     found.question = {.end = found.run.came.value_or(found.run.end),
                       .came = found.run.came.has_value(),
-                      .tries = search.tries};
+                      .tries = static_cast<int>(search.tries)};
     found.turning = TRY(trial::find_turning(
         found.question, [&asker](const auto& continuations) { return asker.ask(continuations); }));
     if (!found.turning.turn) return found;

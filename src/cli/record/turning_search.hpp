@@ -18,8 +18,8 @@ namespace vagus::cli {
 
 struct TurningSearch {
     std::string file = {};  // the recording
-    int tries = trial::kTriesUsual;
-    size_t at_once = 0;                     // 0: as many as there are processors
+    int64_t tries = trial::kTriesUsual;
+    int64_t at_once = 0;                    // 0: as many as there are processors
     std::string results = "turning-point";  // where the two continuations go
     std::string robot = {};                 // whose condition it is, in a fleet
 };

@@ -31,8 +31,8 @@ struct WhyOptions {
 int tell_why(const WhyOptions& options) {
     if (!options.turning.condition.empty()) {
         TurningOptions turning = options.turning;
-        turning.file = options.file;
-        turning.robot = options.robot;
+        turning.search.file = options.file;
+        turning.search.robot = options.robot;
         turning.json = options.json;
         return tell_turning(turning);
     }

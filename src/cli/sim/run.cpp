@@ -182,11 +182,7 @@ void SimRun::end_recording() {
     if (!recording_) return;
     const Status written = recording_->end();
     if (!written.ok()) complain(written.error());
-    if (recording_->dropped() > 0) {
-        complain(options_.record + ": the disk was too slow, " +
-                 std::to_string(recording_->dropped()) +
-                 " samples of variables, poses and cameras were left out");
-    }
+    complain_left_out(options_.record, recording_->dropped(), "variables, poses and cameras");
     recording_.reset();
 }
 

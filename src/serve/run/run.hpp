@@ -89,8 +89,8 @@ public:
         breakpoints_told_ = std::move(told);
     }
     // What it tells for the history: which plan runs from now on, once for each version; a line of
-    // the trace; records of the world; what happened on its bus
-    // while its past was run again; what a camera saw.
+    // the trace; records of the world; what happened on its bus while its past was run again; what
+    // a camera saw.
     struct Told {
         std::function<void(const talk::PlanVersion& version)> plan = [](auto&) {};
         std::function<void(const std::string& line)> trace = [](auto&) {};

@@ -122,7 +122,7 @@ std::string answer_compare(const std::string& question) {
     const auto found = compared(asked);
     const Json answer =
         found.ok() ? found.value() : Json{{"error", without(found.error().what, "--align: ")}};
-    return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(answer);
 }
 
 int run_compare(Pipe pipe) {

@@ -130,7 +130,7 @@ std::string answer_log(const std::string& question) {
     const auto hits = hits_of(asked, where);
     const Json answer =
         hits.ok() ? hits.value() : Json{{"error", sentence_of(hits.error().what, where)}};
-    return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(answer);
 }
 
 int run_log(Pipe pipe) {

@@ -239,7 +239,7 @@ std::string answer_try(const std::string& question) {
     if (!asked.is_object() || !asked.contains("plan") || !asked.contains("way")) return "";
     const auto answer = tried(asked);
     const Json told = answer.ok() ? answer.value() : Json{{"error", answer.error().what}};
-    return told.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(told);
 }
 
 int run_try(Pipe pipe) {

@@ -33,7 +33,7 @@ std::string answer_to(const std::string& text) {
     if (!good) return "";
     const auto chain = chain_of(asked);
     if (chain.ok()) return "{\"chain\":" + chain.value() + "}";
-    return Json{{"error", chain.error().what}}.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text({{"error", chain.error().what}});
 }
 
 }  // namespace

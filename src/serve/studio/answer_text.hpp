@@ -6,25 +6,21 @@
 #include <variant>
 
 #include "base/time.hpp"
+#include "serve/json.hpp"
 #include "serve/protocol/protocol.hpp"
 
 namespace vagus::serve {
-
-// Text that is not UTF-8 is replaced, not refused: an answer always goes out.
-inline std::string text_of(const nlohmann::json& message) {
-    return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 inline std::string answer_text(uint64_t id, const std::variant<nlohmann::json, Problem>& outcome) {
     nlohmann::json message = {{"id", id}};
     if (const auto* out = std::get_if<nlohmann::json>(&outcome)) {
         message["ok"] = *out;
-        return text_of(message);
+        return json_text(message);
     }
     const Problem& problem = std::get<Problem>(outcome);
     message["error"] = {{"code", problem.code}, {"what", problem.what}};
     if (!problem.place.empty()) message["error"]["place"] = problem.place;
-    return text_of(message);
+    return json_text(message);
 }
 
 inline Duration limit_ms(const char* name) {

@@ -181,7 +181,7 @@ void Desk::ping(Time now) {
 }
 
 void Desk::send_ping(ClientId client, Time now) {
-    send(client, false, text_of({{"ping", ++pings_}, {"now", server_ms(now)}}));
+    send(client, false, json_text({{"ping", ++pings_}, {"now", server_ms(now)}}));
 }
 
 // Slow is not gone: only who takes nothing at all is, and only while we gave everything in time.

@@ -88,7 +88,7 @@ std::optional<Problem> Topics::watch(ClientId client, const Json& in, Time now) 
     watch.topic = topic;
     watch.kind = type->kind;
     watch.of = of;
-    watch.key = of.dump(-1, ' ', false, Json::error_handler_t::replace);
+    watch.key = json_text(of);
     watch.every = period_of(in);
     watch.due = now;
     if (type->kind == TopicType::Kind::Document) {
@@ -188,7 +188,7 @@ bool Topics::flush_document(const Place& place, Watch& watch, const Send& send) 
         message["whole"] = *subject.made;
     }
     watch.sent = subject.made;
-    send(place.first, false, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    send(place.first, false, json_text(message));
     return true;
 }
 
@@ -211,7 +211,7 @@ bool Topics::flush_stream(const Place& place, Watch& watch, const Send& send) {
     const Json message = {
         {"watch", place.second}, {"items", std::move(items)}, {"left_out", watch.left_out}};
     watch.left_out = 0;
-    send(place.first, false, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    send(place.first, false, json_text(message));
     return true;
 }
 

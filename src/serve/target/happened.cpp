@@ -23,9 +23,7 @@ Happened fault_of(const debug::Fault& fault) {
 }
 
 Happened event_of(const debug::UserEvent& sent) {
-    return {.kind = "event",
-            .name = sent.name.empty() ? fmt::format("event {}", sent.number) : sent.name,
-            .args = sent.arguments};
+    return {.kind = "event", .name = shown_name(sent), .args = sent.arguments};
 }
 
 std::optional<Happened> happened_of(const debug::Happening& what, const std::string& source) {
@@ -46,6 +44,10 @@ std::optional<Happened> happened_of(const debug::Happening& what, const std::str
 }
 
 }  // namespace
+
+std::string shown_name(const debug::UserEvent& event) {
+    return event.name.empty() ? fmt::format("event {}", event.number) : event.name;
+}
 
 std::optional<Happened> happened_of(const debug::Event& event, const std::string& source) {
     std::optional<Happened> happened = happened_of(event.what, source);

@@ -30,6 +30,9 @@ struct Happened {
 // Without its time. Nothing: it is none that people are told of. `source` is the name of its node.
 std::optional<Happened> happened_of(const debug::Event& event, const std::string& source);
 
+// How people see the event: its name, or "event 7" where no definition is its.
+std::string shown_name(const debug::UserEvent& event);
+
 // Its program has been loaded.
 Happened loaded_now(uint16_t node, const std::string& source);
 

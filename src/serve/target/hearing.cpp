@@ -98,7 +98,7 @@ void Target::hear_place(const debug::Event& event, const debug::BreakpointResult
 
 void Target::hear(const debug::Event& event, const debug::UserEvent& sent) {
     ++events_;
-    const std::string name = sent.name.empty() ? fmt::format("event {}", sent.number) : sent.name;
+    const std::string name = shown_name(sent);
     if (traffic_.size() < kTrafficMax || traffic_.contains({event.node, name})) {
         ++traffic_[{event.node, name}];
     }

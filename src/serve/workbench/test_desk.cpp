@@ -125,8 +125,8 @@ Status TestDesk::begin(const std::vector<std::string>& paths, bool scripts) {
     fs::remove_all(real(kResults), failed);
     trial::TestOrder order{.tests = {}, .results = real(kResults), .scripts = scripts};
     for (const std::string& path : paths) order.tests.push_back(real(path));
-    process_ = TRY(start_());
-    process_->pipe().send(kTestsOrdered, trial::format_order(order));
+    process_.begin(TRY(start_()));
+    process_.ask(kTestsOrdered, trial::format_order(order));
     state_ = State::Running;
     why_.clear();
     counts_scripts_ = scripts;
@@ -135,7 +135,6 @@ Status TestDesk::begin(const std::vector<std::string>& paths, bool scripts) {
     coverage_ = {};
     changed_.clear();
     told_ = 0;
-    heard_.reset();
     touch();
     return Status::done();
 }
@@ -155,7 +154,7 @@ void TestDesk::forget() {
 
 // What was told until then stays.
 void TestDesk::end(State how, std::string why) {
-    process_.reset();
+    process_.end();
     state_ = how;
     why_ = std::move(why);
     touch();
@@ -177,19 +176,12 @@ bool TestDesk::has_recording(const std::string& path) const {
 void TestDesk::tick(Time now) {
     now_ = now;
     if (state_ != State::Running) return;
-    if (!heard_) heard_ = now;
-    Pipe& pipe = process_->pipe();
-    pipe.flush();
-    for (const Packet& packet : pipe.receive()) {
-        heard_ = now;
-        hear(packet);
-    }
+    process_.tick(now, [this](const Packet& packet) { hear(packet); });
     if (std::ranges::all_of(tests_, &Test::is_over)) return end(State::Done);
-    if (const auto ended = process_->ended(); ended || pipe.closed()) {
-        const std::string what = ended ? ended->what : "has gone";
-        return end(State::Failed, "the process that ran them " + what + "; run them again");
+    if (const std::string how = process_.gone(); !how.empty()) {
+        return end(State::Failed, "the process that ran them " + how + "; run them again");
     }
-    if (now - *heard_ >= kTestsSilentMax) end(State::Failed, why_silent());
+    if (process_.silent() >= kTestsSilentMax) end(State::Failed, why_silent());
 }
 
 Time TestDesk::next_tick() const {

@@ -8,8 +8,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +19,7 @@
 #include "serve/run/run.hpp"
 #include "serve/script/scripts.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/workbench/telling_process.hpp"
 #include "trial/told.hpp"
 
 namespace vagus::serve {
@@ -99,13 +98,12 @@ private:
     State state_ = State::None;
     std::string why_;
     bool counts_scripts_ = false;
-    std::unique_ptr<RunProcess> process_;
+    TellingProcess process_;
     std::vector<Test> tests_;
     trial::Coverage coverage_;  // by document instead of by file
     std::set<std::string> changed_;
     size_t told_ = 0;  // failures
     Time now_{};
-    std::optional<Time> heard_;  // set by the first tick
 };
 
 }  // namespace vagus::serve

@@ -51,7 +51,6 @@ void TurningDesk::ask(const Call& call) {
     why_.clear();
     progress_ = {{"stage", kTurningStages[0]}, {"done", 0}, {"of", 0}};
     result_ = nullptr;
-    heard_.reset();
     desk_.topics().touch("turning");
     call.done();
     shown_.flush([this, number = ++asked_, path = file.value()] {
@@ -62,14 +61,13 @@ void TurningDesk::ask(const Call& call) {
 void TurningDesk::begin(const std::string& file) {
     auto process = start_();
     if (!process.ok()) return end(State::Failed, process.error().what);
-    process_ = std::move(process.value());
+    process_.begin(std::move(process.value()));
     const std::string results = (files_.root() / kTurningResults).string();
     std::error_code failed;
     fs::remove_all(results, failed);
-    process_->pipe().send(
-        kTurningAsked,
-        format_turning_asked(
-            {.file = file, .condition = condition_, .tries = tries_, .results = results}));
+    process_.ask(kTurningAsked,
+                 format_turning_asked(
+                     {.file = file, .condition = condition_, .tries = tries_, .results = results}));
 }
 
 void TurningDesk::stop(const Call& call) {
@@ -83,7 +81,7 @@ void TurningDesk::forget() {
 }
 
 void TurningDesk::end(State how, std::string why) {
-    process_.reset();
+    process_.end();
     state_ = how;
     why_ = std::move(why);
     desk_.topics().touch("turning");
@@ -93,20 +91,13 @@ void TurningDesk::end(State how, std::string why) {
 
 void TurningDesk::tick(Time now) {
     now_ = now;
-    if (state_ != State::Running || !process_) return;
-    if (!heard_) heard_ = now;
-    Pipe& pipe = process_->pipe();
-    pipe.flush();
-    for (const Packet& packet : pipe.receive()) {
-        heard_ = now;
-        hear(packet);
-        if (!process_) return;
+    if (state_ != State::Running || !process_.is_there()) return;
+    process_.tick(now, [this](const Packet& packet) { hear(packet); });
+    if (!process_.is_there()) return;
+    if (const std::string how = process_.gone(); !how.empty()) {
+        return end(State::Failed, "the process that looked for it " + how + "; ask again");
     }
-    if (const auto ended = process_->ended(); ended || pipe.closed()) {
-        const std::string what = ended ? ended->what : "has gone";
-        return end(State::Failed, "the process that looked for it " + what + "; ask again");
-    }
-    if (now - *heard_ < kTurningSilentMax) return;
+    if (process_.silent() < kTurningSilentMax) return;
     end(State::Failed, fmt::format("no continuation of the run has ended for {} s; `vagus why "
                                    "--turning-point` in a terminal waits for it",
                                    seconds_of(kTurningSilentMax)));

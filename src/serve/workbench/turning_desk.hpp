@@ -7,8 +7,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "base/time.hpp"
@@ -17,6 +15,7 @@
 #include "serve/run/run.hpp"
 #include "serve/studio/desk.hpp"
 #include "serve/workbench/run_questions.hpp"
+#include "serve/workbench/telling_process.hpp"
 
 namespace vagus::serve {
 
@@ -67,9 +66,8 @@ private:
     std::string condition_, why_;
     int tries_ = 0;
     Json progress_, result_;
-    std::unique_ptr<RunProcess> process_;  // none: the run writes what is recorded so far
+    TellingProcess process_;  // not there yet: the run writes what is recorded so far
     Time now_{};
-    std::optional<Time> heard_;  // set by the first tick
 };
 
 }  // namespace vagus::serve

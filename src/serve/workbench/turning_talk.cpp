@@ -6,20 +6,11 @@
 
 namespace vagus::serve {
 
-namespace {
-
-// Names of files may be any bytes.
-std::string text_of(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-}  // namespace
-
 std::string format_turning_asked(const TurningAsked& asked) {
-    return text_of({{"file", asked.file},
-                    {"condition", asked.condition},
-                    {"tries", asked.tries},
-                    {"results", asked.results}});
+    return json_text({{"file", asked.file},
+                      {"condition", asked.condition},
+                      {"tries", asked.tries},
+                      {"results", asked.results}});
 }
 
 std::optional<TurningAsked> read_turning_asked(const std::string& text) {
@@ -33,15 +24,15 @@ std::optional<TurningAsked> read_turning_asked(const std::string& text) {
 }
 
 std::string format_progress(const TurningProgress& progress) {
-    return text_of({{"stage", progress.stage}, {"done", progress.done}, {"of", progress.of}});
+    return json_text({{"stage", progress.stage}, {"done", progress.done}, {"of", progress.of}});
 }
 
 std::string format_turning_found(const TurningFound& found) {
-    return text_of({{"sentence", found.sentence}, {"found", Json::parse(found.json)}});
+    return json_text({{"sentence", found.sentence}, {"found", Json::parse(found.json)}});
 }
 
 std::string format_turning_refused(const std::string& why) {
-    return text_of({{"error", why}});
+    return json_text({{"error", why}});
 }
 
 }  // namespace vagus::serve

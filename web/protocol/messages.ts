@@ -2196,7 +2196,7 @@ export interface Topics {
     /** older events are not kept */
     events_from?: number;
   } };
-  /** What turning.ask was asked last, and what has come of it. */
+  /** The last turning.ask, its progress and its result. */
   'turning': { kind: 'document'; of: Record<never, never>; is: {
     state: 'none' | 'running' | 'done' | 'stopped' | 'failed';
     /** of the topic history: the one that it was asked of */

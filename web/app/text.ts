@@ -759,7 +759,7 @@ export const text = {
     from: (hit: number) => `from hit ${hit}`,
     holds: 'paused here',
     when: 'Stop when',
-    whenHint: 'a formula, as distance < 5',
+    whenHint: 'a formula, such as distance < 5',
     add: 'Add',
     pausedAt: (place: string) => `Paused by the breakpoint ${place}`,
   },

@@ -26,10 +26,15 @@ test('a name that is longer than its arrow covers no box', () => {
   const size = { width: 105, height: 20 };
   // To the right of the middle at 178, by half of 105 and 6.
   expect(nameSpot({ id: 'a.Done', points }, { size, boxes })).toEqual({ x: 236.5, y: 81 });
-  // Where another box leaves no room for all of it, it covers as little as can be: below the middle the boxes' last 5
-  // rows, 42.5 and 30.5 wide.
+  // Where another box leaves no room beside it, it is below both: half of 20, 10 more and 6 below the middle.
   const beside = [...boxes, { x: 200, y: 0, width: 168, height: 92 }];
-  expect(nameSpot({ id: 'a.Done', points }, { size, boxes: beside })).toEqual({ x: 178, y: 97 });
+  expect(nameSpot({ id: 'a.Done', points }, { size, boxes: beside })).toEqual({ x: 178, y: 107 });
+  // Where boxes are too high for that, it covers as little as can be: the last 13 rows of both.
+  const high = [
+    { x: 0, y: 0, width: 168, height: 140 },
+    { x: 200, y: 0, width: 168, height: 140 },
+  ];
+  expect(nameSpot({ id: 'a.Done', points }, { size, boxes: high })).toEqual({ x: 178, y: 137 });
   // Without room on any side it is where it would be alone.
   const all = [{ x: -500, y: -500, width: 1500, height: 1500 }];
   expect(nameSpot({ id: 'a.Done', points }, { size, boxes: all })).toEqual({ x: 178, y: 81 });

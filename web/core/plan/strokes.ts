@@ -50,8 +50,8 @@ export function nameSpot({ points }: Routed, room?: NameRoom): Point | null {
     return room.boxes.reduce((sum, box) => sum + sharedArea(box, name), 0);
   };
   const places = middles.flatMap((middle) => [middle, ...sidesOf(middle, room.size)]);
-  // An arrow that is shorter than its name has room behind its begin.
-  places.push(...cornersOf(begin, room.size));
+  // An arrow that is shorter than its name has room behind its begin, or above and below the boxes that it joins.
+  places.push(...cornersOf(begin, room.size), ...furtherFrom(longest, room.size));
   const areas = places.map(covers);
   return places[areas.indexOf(Math.min(...areas))] ?? longest;
 }
@@ -63,6 +63,8 @@ function sharedArea(a: Box, b: Box): number {
 }
 
 const kBeside = 6;
+/** Half heights of a name; further away nobody sees which arrow it belongs to. */
+const kFurtherMax = 4;
 
 const lengthOf = (from: Point, to: Point) => Math.hypot(to.x - from.x, to.y - from.y);
 
@@ -75,6 +77,16 @@ function sidesOf({ x, y }: Point, { width, height }: NameRoom['size']): Point[] 
     { x: x + across, y },
     { x: x - across, y },
   ];
+}
+
+/** Further and further above and below a point. */
+function furtherFrom({ x, y }: Point, { height }: NameRoom['size']): Point[] {
+  return Array.from({ length: kFurtherMax }, (_, at) => (at + 2) * (height / 2) + kBeside).flatMap(
+    (down) => [
+      { x, y: y - down },
+      { x, y: y + down },
+    ],
+  );
 }
 
 /** Right and left of a point, above and below it. */

@@ -396,12 +396,9 @@ for (const layout of ['Draw', 'Script'])
           await press('Escape');
           continue;
         }
-        const did = await until(
-          title,
-          async () => (await seenNow(page)) !== before || downloads !== saved,
-          5000,
-        ).catch(() => false);
-        if (!did && !quiet.includes(title)) idle.push(title);
+        const does = async () => (await seenNow(page)) !== before || downloads !== saved;
+        if (!quiet.includes(title) && !(await until(title, does, 5000).catch(() => false)))
+          idle.push(title);
         await press('Escape', 'Escape');
       }
       assert.deepEqual(idle, [], 'these did nothing that is seen');

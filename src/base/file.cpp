@@ -14,6 +14,8 @@
 #include <mutex>
 #include <optional>
 
+#include "base/lost_pages.hpp"
+
 namespace vagus {
 namespace {
 
@@ -258,6 +260,7 @@ Result<MappedFile> MappedFile::open(const std::string& path) {
     if (size == 0) return MappedFile(nullptr, 0);
     void* const data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (data == MAP_FAILED) return failure(path, "read");
+    guard_pages(data, size);
     return MappedFile(static_cast<const char*>(data), size);
 }
 
@@ -265,8 +268,10 @@ MappedFile::MappedFile(MappedFile&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
 
 MappedFile::~MappedFile() {
+    if (data_ == nullptr) return;
+    unguard_pages(data_);
     // munmap asks for memory that may be written; it does not.
-    if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+    ::munmap(const_cast<char*>(data_), size_);
 }
 
 Result<GrowingFile> GrowingFile::create(const std::string& path) {

@@ -15,7 +15,8 @@ constexpr size_t kFileBytesMax = 256u << 20;
 // The whole file. The Error names the file and the system's reason. "-" is standard input.
 Result<std::string> read_file(const std::string& path);
 
-// The bytes of a file, as the system pages them in: for files of any size that are only read.
+// The bytes of a file, as the system pages them in: for files of any size that are only read. What
+// somebody else cuts off meanwhile is read as zeros.
 class MappedFile {
 public:
     static Result<MappedFile> open(const std::string& path);

@@ -1,4 +1,5 @@
 #include "base/file.hpp"
+#include "base/lost_pages.hpp"
 #include "base/test_folder.hpp"
 
 #include <fcntl.h>
@@ -44,6 +45,28 @@ TEST_F(FileTest, AFileThatGrowsIsReadAsItIsMapped) {
     EXPECT_EQ(MappedFile::open(folder_.string()).error().what,
               folder_.string() + ": cannot be read: expected a file");
     EXPECT_FALSE(GrowingFile::create(path("no/x")).ok());
+}
+
+TEST_F(FileTest, WhatIsCutOffAMappedFileReadsAsZeros) {
+    constexpr size_t kBytes = 3u << 20;  // more than the system reads ahead
+    ASSERT_TRUE(write_file(path("x"), std::string(kBytes, 'x')).ok());
+    const auto file = MappedFile::open(path("x"));
+    ASSERT_TRUE(file.ok());
+    fs::resize_file(path("x"), 10);
+    const std::string_view bytes = file.value().bytes();
+    EXPECT_EQ(bytes.size(), kBytes);
+    EXPECT_EQ(bytes.substr(0, 10), "xxxxxxxxxx");
+    EXPECT_EQ(bytes[kBytes - 1], '\0');
+    EXPECT_EQ(bytes[kBytes / 2], '\0');
+}
+
+TEST_F(FileTest, MoreMappedFilesThanAreGuardedAreRead) {
+    ASSERT_TRUE(write_file(path("x"), "some").ok());
+    std::vector<Result<MappedFile>> files;
+    for (size_t i = 0; i <= kGuardedMax; ++i) {
+        files.push_back(MappedFile::open(path("x")));
+        EXPECT_EQ(files.back().value().bytes(), "some");
+    }
 }
 
 TEST_F(FileTest, WhatIsReadIsKept) {

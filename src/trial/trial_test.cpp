@@ -100,6 +100,10 @@ TEST_F(Trials, NamesThatCanNeverComeAreRefusedWithTheirPlace) {
                   ":1:57: order a, cc: the plan has no actor \"cc\"; did you mean c?");
     EXPECT_NE(wrong(R"({"ends":"Interrupted","by":"son"})").find("did you mean soon?"),
               std::string::npos);
+    EXPECT_EQ(wrong(R"({"never":"event == 'Timeot' and actor == 'b'"})"),
+              (folder_ / "t.test.json").string() +
+                  ":1:57: never \"event == 'Timeot' and actor == 'b'\": no supervisor of the plan "
+                  "raises \"Timeot\"; did you mean Timeout?");
     EXPECT_NE(wrong(R"({"always":"x > 1"})").find("give the test a \"world\""), std::string::npos);
     EXPECT_NE(
         wrong(R"({"ends":"OK"})", R"("starts":{"robot":"r","within":[[0,0],[1,1]],"angle":0},)")

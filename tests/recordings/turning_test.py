@@ -287,6 +287,23 @@ class TurningPoint(unittest.TestCase):
         self.assertEqual(os.listdir(temporary), [])
         wait_until("a copy goes on", lambda: not any(runs(copy) for copy in copies))
 
+    def test_what_a_killed_search_left_is_deleted_by_the_next(self):
+        self.script(DRAW_AND_ACT.replace("DRAW", "30").replace("ACT", "30"))
+        self.record_world(60)
+        temporary = self.folder / "tmp"
+        temporary.mkdir()
+        words = ("why", self.file, "--turning-point", "t > 59", "--tries", 1000, "-j", 2)
+        with vagus(*words, env={"TMPDIR": str(temporary)}) as program:
+            copies = patiently_find(lambda: [copy for child in children_of(program.process.pid) for copy in children_of(child)])
+            children = children_of(program.process.pid)
+            program.signal(signal.SIGKILL)
+            program.wait_end()
+        wait_until("a process of the search goes on", lambda: not any(runs(one) for one in children + copies))
+        self.assertNotEqual(os.listdir(temporary), [])
+        with vagus("replay", self.file, "--until", 0.1, env={"TMPDIR": str(temporary)}) as program:
+            self.assertEqual(program.wait_end(), 0, program.lines)
+        self.assertEqual(os.listdir(temporary), [])
+
 
 def children_of(parent):
     found = []

@@ -259,6 +259,7 @@ def measure_serve(rounds, folder, port):
         (desk / f"data-{file}.bin").write_bytes(os.urandom(size))
     with Served(project, "--start") as served, served.page() as page:
         wait_node(page)
+        page.do("driver.leave")  # whoever deploys takes control
         observer = Observer(port)
         case = (f"serve, while {number * size >> 20} MB are deployed", lambda: deploying(desk, served),
                 lambda: press_by_post(served, page, observer))

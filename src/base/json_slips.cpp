@@ -15,7 +15,7 @@
 namespace vagus {
 namespace {
 
-constexpr size_t kShownMax = 30;  // bytes of the text that a sentence shows
+constexpr size_t kSlipShownMax = 30;  // bytes of the text that a sentence shows
 constexpr std::string_view kSpaces = " \t\r\n";
 
 bool is_digit(char c) {
@@ -33,7 +33,7 @@ bool is_typographic_quote(char32_t c) {
 
 // As a text in quotes, shortened where it is long.
 std::string quoted(std::string_view text) {
-    size_t end = std::min(text.size(), kShownMax);
+    size_t end = std::min(text.size(), kSlipShownMax);
     while (end < text.size() && end > 0 && (static_cast<uint8_t>(text[end]) & 0xc0u) == 0x80u)
         --end;
     return json_quote(std::string(text.substr(0, end)) + (end < text.size() ? "…" : ""));
@@ -248,7 +248,7 @@ private:
     }
 
     void number() {
-        const std::string_view written = number_here().substr(0, kShownMax);
+        const std::string_view written = number_here().substr(0, kSlipShownMax);
         size_t end = now() == '-' ? at_ + 1 : at_;
         const size_t first = end;
         end = digits_from(end);
@@ -359,7 +359,7 @@ private:
     }
 
     void colon() {
-        const std::string key(text_.substr(token_, value_end_ - token_).substr(0, kShownMax));
+        const std::string key(text_.substr(token_, value_end_ - token_).substr(0, kSlipShownMax));
         if (now() == ':') {
             token_ = at_++;
             expected_ = Expected::Value;

@@ -1,6 +1,7 @@
 #include "base/line_sink.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "base/log_lines.hpp"
 #include "base/text.hpp"
 
 namespace vagus {
@@ -68,6 +70,8 @@ Result<LineSink> LineSink::open(const std::string& path, When when) {
     return sink;
 }
 
+LineSink::LineSink() = default;
+
 LineSink::LineSink(LineSink&& other) noexcept
     : name_(std::move(other.name_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
@@ -76,7 +80,10 @@ LineSink::LineSink(LineSink&& other) noexcept
       waiting_(std::exchange(other.waiting_, {})),
       waits_since_(other.waits_since_),
       failure_(std::move(other.failure_)),
-      abandoned_(other.abandoned_) {}
+      abandoned_(other.abandoned_),
+      patience_(other.patience_),
+      unwaiting_(std::move(other.unwaiting_)),
+      left_out_(other.left_out_) {}
 
 LineSink& LineSink::operator=(LineSink&& other) noexcept {
     LineSink taken(std::move(other));
@@ -88,12 +95,23 @@ LineSink& LineSink::operator=(LineSink&& other) noexcept {
     std::swap(waits_since_, taken.waits_since_);
     std::swap(failure_, taken.failure_);
     std::swap(abandoned_, taken.abandoned_);
+    std::swap(patience_, taken.patience_);
+    std::swap(unwaiting_, taken.unwaiting_);
+    std::swap(left_out_, taken.left_out_);
     return *this;
 }
 
 LineSink::~LineSink() {
     put();
+    unwaiting_.reset();  // it writes to the descriptor
     if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
+}
+
+void LineSink::never_wait(Duration patience) {
+    struct stat file = {};
+    const bool may_wait = descriptor_ >= 0 && ::fstat(descriptor_, &file) == 0 &&
+                          (S_ISFIFO(file.st_mode) || S_ISSOCK(file.st_mode) || terminal_);
+    if (may_wait) patience_ = patience;
 }
 
 void LineSink::write(std::string_view lines) {
@@ -118,8 +136,19 @@ void LineSink::put() {
     const std::string lines = std::exchange(waiting_, {});
     waits_since_.reset();
     if (lines.empty() || descriptor_ < 0 || failure_ || abandoned_) return;
+    if (patience_) return put_unwaiting(lines);
     const size_t written = write_some(descriptor_, lines);
     if (written < lines.size()) fail(std::string_view(lines).substr(0, written));
+}
+
+void LineSink::put_unwaiting(std::string_view lines) {
+    if (!unwaiting_) {
+        unwaiting_ =
+            std::make_unique<LogLines>(descriptor_, *patience_, LogLines::Missing::Counted);
+    }
+    if (unwaiting_->add_unescaped(lines)) return;
+    errno = EPIPE;
+    fail({});
 }
 
 void LineSink::fail(std::string_view begun) {
@@ -134,7 +163,11 @@ void LineSink::fail(std::string_view begun) {
 
 Status LineSink::flush() {
     put();
-    return state();
+    if (unwaiting_) left_out_ += unwaiting_->finish();
+    unwaiting_.reset();
+    if (failure_ || abandoned_ || left_out_ == 0) return state();
+    return Error{Code::Limit, fmt::format("{}: nobody read it in time; {} lines were left out",
+                                          name_, left_out_)};
 }
 
 Status LineSink::state() const {

@@ -8,6 +8,8 @@
 //     const Status written = trace.flush();              // "run.jsonl: cannot be written: …"
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +18,8 @@
 #include "base/time.hpp"
 
 namespace vagus {
+
+class LogLines;
 
 constexpr size_t kLinesWaitMax = 64u << 10;  // bytes that wait before they are written
 constexpr Duration kLinesWaitFor = std::chrono::milliseconds(500);  // with When::WithinASecond
@@ -27,7 +31,7 @@ public:
         WithinASecond,  // pass() writes what has waited for kLinesWaitFor
     };
 
-    LineSink() = default;  // nowhere
+    LineSink();  // nowhere
     // A new file (what was in it is gone), "-" for stdout, nowhere for an empty path. The Error
     // names the file and the system's reason. On a terminal lines are escaped (visible_lines).
     static Result<LineSink> open(const std::string& path, When when);
@@ -38,11 +42,15 @@ public:
 
     // It goes somewhere.
     explicit operator bool() const { return descriptor_ >= 0; }
+    // From here on no write waits for who reads a pipe, a terminal or a socket: what is not read in
+    // time is left out, and flush() says how much. `patience`: of LogLines. A file is written as
+    // always, and keeps every line.
+    void never_wait(Duration patience = {});
     // Whole lines, each with its newline. Without effect after a failure.
     void write(std::string_view lines);
     // Told the time, from any clock that only goes forward.
     void pass(Time now);
-    // Writes what waits. The first failure since it was opened, else done.
+    // Writes what waits. The first failure since it was opened, then what was left out, else done.
     Status flush();
     // The first failure so far, or done.
     Status state() const;
@@ -51,6 +59,7 @@ public:
 
 private:
     void put();
+    void put_unwaiting(std::string_view lines);
     void fail(std::string_view begun);
 
     std::string name_;  // for sentences
@@ -61,6 +70,9 @@ private:
     std::optional<Time> waits_since_;
     std::optional<Error> failure_;
     bool abandoned_ = false;
+    std::optional<Duration> patience_;     // nothing: it waits
+    std::unique_ptr<LogLines> unwaiting_;  // from the first line on that may not wait
+    uint64_t left_out_ = 0;                // lines
 };
 
 // Whole lines on stderr, in one write, escaped (visible_lines). Lost if nobody takes them.

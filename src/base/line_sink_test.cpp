@@ -135,5 +135,29 @@ TEST_F(LineSinkTest, APipeWhoseReaderLeftIsAFailure) {
     EXPECT_EQ(sink.state().error().what, path("p") + ": cannot be written: Broken pipe");
 }
 
+TEST_F(LineSinkTest, OneThatNeverWaitsSaysHowMuchAReaderMissed) {
+    ASSERT_EQ(::mkfifo(path("p").c_str(), 0600), 0);
+    const int reader = ::open(path("p").c_str(), O_RDONLY | O_NONBLOCK);
+    LineSink sink = std::move(LineSink::open(path("p"), When::AtOnce).value());
+    sink.never_wait();
+    // More than a pipe holds, and what may wait for it twice.
+    const std::string line = std::string(1023, 'x') + "\n";
+    for (int i = 0; i < 2048; ++i) sink.write(line);
+    EXPECT_TRUE(sink.state().ok());
+    const Status written = sink.flush();
+    ::close(reader);
+    ASSERT_FALSE(written.ok());
+    EXPECT_TRUE(written.error().what.starts_with(path("p") + ": nobody read it in time; "))
+        << written.error().what;
+}
+
+TEST_F(LineSinkTest, AFileKeepsEveryLineAlsoWhereNothingWaits) {
+    LineSink sink = std::move(LineSink::open(path("f"), When::AtOnce).value());
+    sink.never_wait();
+    sink.write("a\n");
+    EXPECT_EQ(written(), "a\n");
+    EXPECT_TRUE(sink.flush().ok());
+}
+
 }  // namespace
 }  // namespace vagus

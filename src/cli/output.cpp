@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/line_sink.hpp"
+#include "base/log_lines.hpp"
 #include "base/text.hpp"
-#include "cli/log_lines.hpp"
 
 namespace vagus::cli {
 

@@ -41,8 +41,8 @@ void complain_left_out(std::string_view file, uint64_t samples, std::string_view
 
 // While it lives, print(), say() and complain() never wait for a reader, for a verb that others
 // rely on meanwhile: a bus, a robot, a node that is examined. Lines that nobody takes in time are
-// left out, and counted where they are missing (log_lines.hpp). Files are written as always: they
-// keep every line. At its end, what waits is written as far as somebody reads.
+// left out, and counted where they are missing (base/log_lines.hpp). Files are written as always:
+// they keep every line. At its end, what waits is written as far as somebody reads.
 //
 //     const OutputNeverWaits never;
 class OutputNeverWaits {

@@ -457,8 +457,8 @@ PreparedRun::~PreparedRun() = default;
 Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const LoadedPlan& what,
                                                           const RunWords& words,
                                                           toolbox::Parts& parts) {
-    const LoadedPlan started = words.from.empty() ? what : TRY(start_of(what, words.from));
-    auto insides = std::make_unique<Insides>(started, words, parts);
+    auto insides = std::make_unique<Insides>(
+        words.from.empty() ? what : TRY(start_of(what, words.from)), words, parts);
     TRY(insides->take_options());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PreparedRun>(new PreparedRun(std::move(insides)));
@@ -494,6 +494,9 @@ void PreparedRun::pace(std::function<void(Time)> wait) {
 Result<run::Ended> PreparedRun::run(run::Debugger* debugger) {
     insides_->how.debugger = debugger;
     insides_->firing = {};
+    // In real time no robot waits for a reader. A debugger's own lines keep their place in a trace.
+    const bool may_wait = debugger != nullptr || insides_->words.clock == "virtual";
+    if (!may_wait) insides_->sink.never_wait(), insides_->sink_all.never_wait();
     if (insides_->world) return insides_->run_beside_world();
     if (insides_->bus) return insides_->run_on_bus();
     return insides_->run_with(in_virtual_time() ? run::Clock::Virtual : run::Clock::Real,

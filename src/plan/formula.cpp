@@ -231,4 +231,18 @@ const std::string* Formula::single_name() const {
     return steps_.size() == 1 && steps_[0].op == FormulaOp::Variable ? &names_[0] : nullptr;
 }
 
+std::vector<Formula::ComparedText> Formula::compared_texts() const {
+    std::vector<ComparedText> compared;
+    for (size_t i = 2; i < steps_.size(); ++i) {
+        if (steps_[i].op != FormulaOp::Equal && steps_[i].op != FormulaOp::NotEqual) continue;
+        const Step* name = &steps_[i - 2];
+        const Step* text = &steps_[i - 1];
+        if (name->op == FormulaOp::Constant) std::swap(name, text);
+        if (name->op != FormulaOp::Variable || text->op != FormulaOp::Constant) continue;
+        const Value& constant = constants_[text->index];
+        if (constant.type() == Type::String) compared.push_back({name->index, constant.string()});
+    }
+    return compared;
+}
+
 }  // namespace vagus::plan

@@ -45,6 +45,14 @@ public:
     // The name, if the formula is nothing but one variable.
     const std::string* single_name() const;
 
+    // The texts that variables are compared with by == or !=, on either side, in their order.
+    struct ComparedText {
+        size_t name = 0;  // index in names()
+        std::string text = {};
+        friend bool operator==(const ComparedText&, const ComparedText&) = default;
+    };
+    std::vector<ComparedText> compared_texts() const;
+
 private:
     friend class FormulaParser;
     Formula() = default;

@@ -37,6 +37,12 @@ Result<Value> value_of(std::string_view text) {
     return formula.evaluate(values);
 }
 
+using Compared = std::vector<Formula::ComparedText>;
+
+Compared compared_in(std::string_view text) {
+    return parse_formula(text).value().compared_texts();
+}
+
 Result<Type> type_of(std::string_view text) {
     const Formula formula = TRY(parse_formula(text));
     std::vector<Type> types;
@@ -331,6 +337,16 @@ TEST(FormulaText, HasALimitOfItsLength) {
 
 TEST(FormulaText, ManyArgumentsAreFine) {
     EXPECT_EQ(shown("max(" + repeated("1, ", 5000) + "9)"), "9 int");
+}
+
+TEST(Formula, TextsThatVariablesAreComparedWithAreListed) {
+    EXPECT_EQ(compared_in("a == 'x' and \"y\" != b or (a) == ('z')"),
+              (Compared{{0, "x"}, {1, "y"}, {0, "z"}}));
+    EXPECT_EQ(compared_in("if(c, d, a == 'x') and c == ''"), (Compared{{2, "x"}, {0, ""}}));
+    // Neither texts, nor compared for being the same, nor with a variable alone.
+    EXPECT_EQ(compared_in("a == 1 or a < 'x' or a & 'x' == 'y' or 'x' == 'y' or a == b"),
+              Compared{});
+    EXPECT_EQ(compared_in("if(c, a, b) == 'x' or a == 'x' & b"), Compared{});
 }
 
 }  // namespace

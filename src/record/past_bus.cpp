@@ -248,7 +248,10 @@ std::vector<PastBus::Told> PastBus::take(const plan::TraceEvent& event) {
     const Line* const line = next_line();
     if (line == nullptr) {
         if (!parted_) parted_ = event.at;
-        told.push_back({event.at, std::move(text)});
+        // Lines of the decision with which it parted come with that one, not before it.
+        plan::TraceEvent now = event;
+        now.at = std::max(event.at, parted_at_);
+        told.push_back({now.at, plan::format_trace(now)});
         return told;
     }
     const bool near = is_near(line->at, event.at);
@@ -261,7 +264,7 @@ std::vector<PastBus::Told> PastBus::take(const plan::TraceEvent& event) {
     parted_ = std::min(event.at, line->at);
     plan::TraceEvent then = event;
     if (near) {
-        then.at = line->at;
+        then.at = parted_at_ = line->at;
         run_->move_clock(line->at);  // all that follows comes later
     }
     told.push_back({then.at, plan::format_trace(then)});

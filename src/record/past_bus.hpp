@@ -130,6 +130,7 @@ private:
     size_t emission_ = 0;
     Time last_{-1};  // instant that was begun
     std::optional<Time> parted_;
+    Time parted_at_{};  // of its first other line, if that is near one that was recorded
     run::VirtualTime* run_ = nullptr;
     toolbox::BusNodes* nodes_ = nullptr;
 };

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -124,20 +123,7 @@ PackedFiles pack(const std::map<std::string, std::string>& read) {
 }
 
 Result<UnpackedFolder> UnpackedFolder::make() {
-    std::error_code error;
-    std::string path = (fs::temp_directory_path(error) / "vagus-recording-XXXXXX").string();
-    if (!error && ::mkdtemp(path.data()) != nullptr) return UnpackedFolder(path);
-    return Error{Code::Unavailable, path +
-                                        ": no folder can be made for the files of the "
-                                        "recording; is the disk full?"};
-}
-
-UnpackedFolder::UnpackedFolder(UnpackedFolder&& other) noexcept
-    : path_(std::exchange(other.path_, {})) {}
-
-UnpackedFolder::~UnpackedFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
+    return UnpackedFolder(TRY(TemporaryFolder::make("unpacked")));
 }
 
 Status UnpackedFolder::add(const std::string& name, std::string_view content) const {
@@ -148,12 +134,13 @@ Status UnpackedFolder::add(const std::string& name, std::string_view content) co
                                         "written"};
     }
     std::error_code error;
-    fs::create_directories((fs::path(path_) / inside).parent_path(), error);
+    fs::create_directories((fs::path(folder_.path()) / inside).parent_path(), error);
     return write_file_unsynced(path_of(name), content);
 }
 
 std::string UnpackedFolder::path_of(const std::string& name) const {
-    return name.empty() ? "" : (fs::path(path_) / fs::path(name).lexically_normal()).string();
+    return name.empty() ? ""
+                        : (fs::path(folder_.path()) / fs::path(name).lexically_normal()).string();
 }
 
 }  // namespace vagus::record

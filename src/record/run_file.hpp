@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/result.hpp"
+#include "base/temporary_folder.hpp"
 
 namespace vagus::record {
 
@@ -74,16 +75,13 @@ PackedFiles pack(const std::map<std::string, std::string>& read);
 class UnpackedFolder {
 public:
     static Result<UnpackedFolder> make();
-    ~UnpackedFolder();
-    UnpackedFolder(UnpackedFolder&& other) noexcept;
-    UnpackedFolder& operator=(UnpackedFolder&&) = delete;
     // Refuses names that lead out of it.
     Status add(const std::string& name, std::string_view content) const;
     std::string path_of(const std::string& name) const;
 
 private:
-    explicit UnpackedFolder(std::string path) : path_(std::move(path)) {}
-    std::string path_;
+    explicit UnpackedFolder(TemporaryFolder folder) : folder_(std::move(folder)) {}
+    TemporaryFolder folder_;
 };
 
 }  // namespace vagus::record

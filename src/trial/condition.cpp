@@ -7,6 +7,7 @@
 
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "trial/plan_names.hpp"
 
 namespace vagus::trial {
 
@@ -169,6 +170,31 @@ plan::Type type_of(const Name& name, const plan::GraphPlan& plan) {
     return plan.variables[static_cast<size_t>(name.slot)].type;
 }
 
+// ---- texts that signals are compared with ----
+
+bool is_one_of(std::string_view name, const std::vector<std::string>& names) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+// The signal has the actor's name alone, whatever plan it is in.
+Status check_actor(const std::string& text, const plan::Graph& graph) {
+    const std::vector<std::string> actors = actors_of(graph);
+    if (is_one_of(text, actors)) return Status::done();
+    const std::string last = text.substr(text.rfind('/') + 1);
+    return Error{Code::NotFound, fmt::format("the plan has no actor \"{}\"; {}", text,
+                                             known_instead(last, actors))};
+}
+
+Status check_event(const std::string& text, const plan::Graph& graph) {
+    const std::vector<std::string> events = events_of(graph);
+    if (is_one_of(text, events)) return Status::done();
+    const std::string what =
+        is_one_of(text, states_of(graph))
+            ? fmt::format("\"{}\" is a state of an actor, not an event of a supervisor", text)
+            : fmt::format("no supervisor of the plan raises \"{}\"", text);
+    return Error{Code::NotFound, what + "; " + known_instead(text, events)};
+}
+
 }  // namespace
 
 Result<Condition> Condition::parse(std::string_view text) {
@@ -186,7 +212,19 @@ Result<Condition> Condition::parse(std::string_view text) {
     return made;
 }
 
-Status Condition::bind(const plan::GraphPlan& plan, bool has_world) {
+// '' is between two actors, or no event.
+Status Condition::check_texts(const plan::Graph& graph) const {
+    for (const auto& [name, text] : formula_.compared_texts()) {
+        const Signal* const signal = names_[name].signal;
+        if (signal == nullptr || text.empty()) continue;
+        if (signal->id == SignalId::Actor) TRY(check_actor(text, graph));
+        if (signal->id == SignalId::Event) TRY(check_event(text, graph));
+    }
+    return Status::done();
+}
+
+Status Condition::bind(const plan::Graph& graph, bool has_world) {
+    const plan::GraphPlan& plan = graph.plans.front();
     std::vector<plan::Type> types;
     for (Name& name : names_) {
         if (name.of == Name::Of::Unknown) {
@@ -203,7 +241,7 @@ Status Condition::bind(const plan::GraphPlan& plan, bool has_world) {
         types.push_back(type_of(name, plan));
     }
     (void)TRY(formula_.type(types));
-    return Status::done();
+    return check_texts(graph);
 }
 
 bool Condition::uses(SignalId signal) const {

@@ -2,7 +2,7 @@
 // of nodes.
 //
 //     Condition near = TRY(Condition::parse("contact < 2 and node('drive', 'token') > 0"));
-//     TRY(near.bind(graph.plans.front(), true));
+//     TRY(near.bind(graph, true));
 //     const Result<bool> holds = near.holds(values);     // one Value for each of names()
 #pragma once
 
@@ -35,9 +35,9 @@ public:
 
     // The Error says what is wrong with the text, without a place in a file.
     static Result<Condition> parse(std::string_view text);
-    // Which variables the plan has, and whether there is a world. The Error names what is unknown,
-    // and the nearest that is not.
-    Status bind(const plan::GraphPlan& plan, bool has_world);
+    // Which variables, actors and events the plan has, and whether there is a world. The Error
+    // names what is unknown, and the nearest that is not.
+    Status bind(const plan::Graph& graph, bool has_world);
 
     const std::string& text() const { return text_; }
     const std::vector<Name>& names() const { return names_; }
@@ -48,6 +48,7 @@ public:
 private:
     explicit Condition(std::string text, plan::Formula formula)
         : text_(std::move(text)), formula_(std::move(formula)) {}
+    Status check_texts(const plan::Graph& graph) const;
 
     std::string text_;
     plan::Formula formula_;

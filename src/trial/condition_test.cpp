@@ -5,16 +5,16 @@
 namespace vagus::trial {
 namespace {
 
-plan::GraphPlan plan_with(std::vector<std::pair<std::string, plan::Type>> variables) {
+plan::Graph plan_with(std::vector<std::pair<std::string, plan::Type>> variables) {
     plan::GraphPlan plan;
     plan.name = "P";
     for (auto& [name, type] : variables) {
         plan.variables.push_back({.name = name, .type = type, .initial = plan::default_of(type)});
     }
-    return plan;
+    return {{std::move(plan)}};
 }
 
-std::string error_of(std::string_view text, const plan::GraphPlan& plan, bool has_world = true) {
+std::string error_of(std::string_view text, const plan::Graph& plan, bool has_world = true) {
     auto parsed = Condition::parse(text);
     if (!parsed.ok()) return parsed.error().what;
     const Status bound = parsed.value().bind(plan, has_world);
@@ -23,7 +23,7 @@ std::string error_of(std::string_view text, const plan::GraphPlan& plan, bool ha
 
 TEST(Condition, NamesAreSignalsVariablesAndWords) {
     auto parsed = Condition::parse(
-        "contact < 2 and walldist > node(\"drive\", 'sectors[3]') or actor == \"node('a')\"");
+        "contact < 2 and walldist > node(\"drive\", 'sectors[3]') or event < \"node('a')\"");
     ASSERT_TRUE(parsed.ok()) << parsed.error().what;
     Condition& condition = parsed.value();
     ASSERT_TRUE(condition.bind(plan_with({{"walldist", plan::Type::Float}}), true).ok());
@@ -34,7 +34,7 @@ TEST(Condition, NamesAreSignalsVariablesAndWords) {
     EXPECT_EQ(condition.names()[2].variable, "sectors");
     EXPECT_EQ(condition.names()[2].element, 3);
     EXPECT_EQ(condition.names()[2].shown, "node(\"drive\", 'sectors[3]')");
-    EXPECT_EQ(condition.names()[3].signal->id, SignalId::Actor);
+    EXPECT_EQ(condition.names()[3].signal->id, SignalId::Event);
     EXPECT_TRUE(condition.uses(SignalId::Contact));
     EXPECT_FALSE(condition.uses(SignalId::Bus));
     // 1 < 2, and 30 > 7.
@@ -63,7 +63,7 @@ TEST(Condition, WhatIsUnknownIsNamedWithTheNearest) {
 }
 
 TEST(Condition, CallsThatAreWrittenWrongAreExplained) {
-    const plan::GraphPlan plan = plan_with({});
+    const plan::Graph plan = plan_with({});
     const std::string two = "expected two texts, as node(\"drive\", \"token\"), behind node";
     EXPECT_EQ(error_of("node(drive, token) > 1", plan), two);
     EXPECT_EQ(error_of("node('drive') > 1", plan), two);
@@ -75,6 +75,55 @@ TEST(Condition, CallsThatAreWrittenWrongAreExplained) {
               "\"token[\": expected the number of an element in brackets, as "
               "\"touch.sectors[2]\"");
     EXPECT_NE(error_of("contact <", plan), "");
+}
+
+const plan::Template kWatches{.name = "Watches",
+                              .kind = plan::Kind::Supervisor,
+                              .outcomes = {{.name = "LaneNotFree"}, {.name = "Near"}}};
+
+plan::GraphActor actor(std::string name, std::vector<std::string> states) {
+    plan::GraphActor made;
+    made.name = std::move(name);
+    made.states = std::move(states);
+    return made;
+}
+
+// A plan whose actor "calibrate" is a plan with the actor "turn"; supervisors in both.
+plan::Graph plan_with_another_inside() {
+    plan::Graph graph = plan_with({{"mode", plan::Type::String}});
+    plan::GraphPlan inside;
+    inside.name = "Inside";
+    inside.actors = {actor("turn", {"TurnSuccessful"})};
+    inside.actors[0].supervisors.emplace_back().of = &kWatches;
+    graph.plans[0].actors = {actor("followWall", {"Done"}), actor("calibrate", {"OK", "Error"})};
+    graph.plans.push_back(std::move(inside));
+    return graph;
+}
+
+TEST(Condition, TextsThatCanNeverComeAreRefused) {
+    const plan::Graph plan = plan_with_another_inside();
+    const std::string no_actor = "the plan has no actor \"followWal\"; did you mean followWall?";
+    EXPECT_EQ(error_of("actor == 'followWal'", plan), no_actor);
+    EXPECT_EQ(error_of("t > 3 and not \"followWal\" != actor", plan), no_actor);
+    EXPECT_EQ(error_of("actor == 'calibrate/turn'", plan),
+              "the plan has no actor \"calibrate/turn\"; did you mean turn?");
+    EXPECT_EQ(error_of("event == \"LaneNotFre\"", plan),
+              "no supervisor of the plan raises \"LaneNotFre\"; did you mean LaneNotFree?");
+    EXPECT_EQ(error_of("'TurnSuccessful' == event", plan),
+              "\"TurnSuccessful\" is a state of an actor, not an event of a supervisor; there are: "
+              "LaneNotFree, Near");
+    EXPECT_EQ(error_of("actor == 'a'", plan_with({})),
+              "the plan has no actor \"a\"; there is none");
+}
+
+TEST(Condition, TextsThatCanComeAreNotRefused) {
+    const plan::Graph plan = plan_with_another_inside();
+    for (const std::string_view text :
+         {"actor == 'followWall' or actor == 'turn' or 'calibrate' != actor",
+          "event == 'Near' and event != \"LaneNotFree\"", "actor == '' and '' != event",
+          "mode == 'followWal' or variable('mode') == 'LaneNotFre'", "actor < 'g'"}) {
+        EXPECT_EQ(error_of(text, plan), "") << text;
+    }
 }
 
 }  // namespace

@@ -128,9 +128,9 @@ Status Continued::choose_bus(const std::string& robot) {
 }
 
 Status Continued::bind() {
-    if (bus_.plan != nullptr) return condition_.bind(bus_.plan->graph().plans.front(), true);
+    if (bus_.plan != nullptr) return condition_.bind(bus_.plan->graph(), true);
     no_plan_.plans.emplace_back();
-    return condition_.bind(no_plan_.plans.front(), true);
+    return condition_.bind(no_plan_, true);
 }
 
 Result<RunEnd> Continued::as_it_was() {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 
@@ -34,10 +34,25 @@ std::string xml(std::string_view text) {
     return out;
 }
 
-std::string test_case(const TestFile& test, const SeedResult& result) {
+// A test case is a name and what came of it.
+using Case = std::pair<std::string, const SeedResult*>;
+
+std::vector<Case> cases_of(const TestResult& result) {
+    std::vector<Case> cases;
+    for (const SeedResult& one : result.seeds) {
+        cases.emplace_back(fmt::format("seed {}", one.seed), &one);
+    }
+    for (const FaultsResult& one : result.faults) {
+        cases.emplace_back(fmt::format("seed {} --chaos {}", one.result.seed, one.words),
+                           &one.result);
+    }
+    return cases;
+}
+
+std::string test_case(const TestFile& test, const std::string& name, const SeedResult& result) {
     const std::string head =
-        fmt::format("    <testcase classname=\"{}\" name=\"seed {}\" time=\"{:.3f}\"",
-                    xml(test.path), result.seed, result.seconds);
+        fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml(test.path),
+                    xml(name), result.seconds);
     if (as_expected(result)) return head + "/>\n";
     const std::string what = xml(describe_failure(test, result));
     const std::string_view kind = result.trouble.empty() ? "failure" : "error";
@@ -79,21 +94,20 @@ std::string describe_failure(const TestFile& test, const SeedResult& result) {
 std::string format_junit(const std::vector<TestResult>& results) {
     std::string suites;
     for (const TestResult& result : results) {
-        const auto& seeds = result.seeds;
-        const auto troubles = std::ranges::count_if(
-            seeds, [](const SeedResult& one) { return !one.trouble.empty(); });
-        const auto bad =
-            std::ranges::count_if(seeds, [](const SeedResult& one) { return !as_expected(one); });
+        size_t troubles = 0, bad = 0;
         double seconds = 0;
         std::string cases;
-        for (const SeedResult& one : seeds) {
-            seconds += one.seconds;
-            cases += test_case(result.test, one);
+        const std::vector<Case> all = cases_of(result);
+        for (const auto& [name, one] : all) {
+            troubles += one->trouble.empty() ? 0 : 1;
+            bad += as_expected(*one) ? 0 : 1;
+            seconds += one->seconds;
+            cases += test_case(result.test, name, *one);
         }
         suites += fmt::format(
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
             "time=\"{:.3f}\">\n{}  </testsuite>\n",
-            xml(result.test.path), seeds.size(), bad - troubles, troubles, seconds, cases);
+            xml(result.test.path), all.size(), bad - troubles, troubles, seconds, cases);
     }
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites +
            "</testsuites>\n";

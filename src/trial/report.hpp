@@ -19,9 +19,16 @@ struct SeedResult {
     double seconds = 0;          // of wall clock
 };
 
+// One set of faults with which a seed of it was tried.
+struct FaultsResult {
+    std::string words = {};  // of --chaos, which break the same things again
+    SeedResult result = {};
+};
+
 struct TestResult {
     TestFile test;
     std::vector<SeedResult> seeds;
+    std::vector<FaultsResult> faults = {};
 };
 
 bool as_expected(const SeedResult& result);
@@ -41,8 +48,8 @@ std::vector<Failure> failures_of(const TestFile& test, const Outcome& outcome);
 // end, each beginning with its place.
 std::string describe_failure(const TestFile& test, const SeedResult& result);
 
-// A test suite for each test, a test case for each seed (the schema of Ant's and Jenkins' JUnit
-// reports).
+// A test suite for each test, a test case for each seed, and for each set of faults (the schema of
+// Ant's and Jenkins' JUnit reports).
 std::string format_junit(const std::vector<TestResult>& results);
 
 }  // namespace vagus::trial

@@ -17,6 +17,7 @@
 #include "sim/chaos_file.hpp"
 #include "sim/standing.hpp"
 #include "sim/world_file.hpp"
+#include "trial/plan_names.hpp"
 #include "trial/script_counter.hpp"
 
 namespace vagus::trial {
@@ -113,8 +114,7 @@ private:
         for (Expectation& one : test_.expect) {
             TRY(check_names(one));
             if (!one.condition) continue;
-            const Status bound =
-                one.condition->bind(plan_->graph().plans.front(), !test_.world.empty());
+            const Status bound = one.condition->bind(plan_->graph(), !test_.world.empty());
             if (!bound.ok()) return at_expectation(test_, one, bound.error().what);
         }
         return Status::done();
@@ -122,10 +122,8 @@ private:
 
     // Of actors and supervisors: what is misspelt would never come.
     Status check_names(const Expectation& one) {
-        std::vector<std::string> actors, supervisors;
-        for (const plan::GraphPlan& plan : plan_->graph().plans) {
-            for (const plan::GraphActor& actor : plan.actors) actors.push_back(actor.name);
-        }
+        const std::vector<std::string> actors = actors_of(plan_->graph());
+        std::vector<std::string> supervisors;
         const plan::GraphPlan& outermost = plan_->graph().plans.front();
         for (const auto& global : outermost.globals) supervisors.push_back(global.name);
         for (const plan::GraphActor& actor : outermost.actors) {

@@ -100,6 +100,10 @@ TEST_F(Trials, NamesThatCanNeverComeAreRefusedWithTheirPlace) {
                   ":1:57: order a, cc: the plan has no actor \"cc\"; did you mean c?");
     EXPECT_NE(wrong(R"({"ends":"Interrupted","by":"son"})").find("did you mean soon?"),
               std::string::npos);
+    EXPECT_EQ(wrong(R"({"never":"event == 'Timeot' and actor == 'b'"})"),
+              (folder_ / "t.test.json").string() +
+                  ":1:57: never \"event == 'Timeot' and actor == 'b'\": no supervisor of the plan "
+                  "raises \"Timeot\"; did you mean Timeout?");
     EXPECT_NE(wrong(R"({"always":"x > 1"})").find("give the test a \"world\""), std::string::npos);
     EXPECT_NE(
         wrong(R"({"ends":"OK"})", R"("starts":{"robot":"r","within":[[0,0],[1,1]],"angle":0},)")
@@ -186,14 +190,15 @@ TEST_F(Trials, FailuresHaveTheirPlaceAndGoIntoJUnit) {
     ASSERT_TRUE(outcome.ok()) << outcome.error().what;
     result.seeds.push_back({.seed = 4, .outcome = outcome.value()});
     result.seeds.push_back({.seed = 5, .trouble = "its process crashed (Aborted)"});
+    result.faults.push_back({.words = "random:1:1:3", .result = {.seed = 6, .seconds = 0.5}});
     EXPECT_EQ(describe_failure(result.test, result.seeds[0]),
               "t.test.json:2:13: seed 4, at 3 s: never \"n == 7 and actor < 'd'\": n = 7, actor = "
               "\"\" (a & b)");
     EXPECT_EQ(
         format_junit({result}),
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-        "  <testsuite name=\"t.test.json\" tests=\"2\" failures=\"1\" errors=\"1\" "
-        "time=\"0.000\">\n"
+        "  <testsuite name=\"t.test.json\" tests=\"3\" failures=\"1\" errors=\"1\" "
+        "time=\"0.500\">\n"
         "    <testcase classname=\"t.test.json\" name=\"seed 4\" time=\"0.000\">\n"
         "      <failure message=\"t.test.json:2:13: seed 4, at 3 s: never &quot;n == 7 and actor "
         "&lt; 'd'&quot;: n = 7, actor = &quot;&quot; (a &amp; b)\">t.test.json:2:13: seed 4, at 3 "
@@ -202,6 +207,8 @@ TEST_F(Trials, FailuresHaveTheirPlaceAndGoIntoJUnit) {
         "    <testcase classname=\"t.test.json\" name=\"seed 5\" time=\"0.000\">\n"
         "      <error message=\"t.test.json: seed 5: its process crashed (Aborted)\">t.test.json: "
         "seed 5: its process crashed (Aborted)</error>\n    </testcase>\n"
+        "    <testcase classname=\"t.test.json\" name=\"seed 6 --chaos random:1:1:3\" "
+        "time=\"0.500\"/>\n"
         "  </testsuite>\n</testsuites>\n");
 }
 

@@ -3,6 +3,7 @@ fault, and what is wrong with the words is said."""
 import json
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -70,8 +71,11 @@ class Chaos(unittest.TestCase):
 
     def test_a_planted_weakness_is_found_and_shrunk_to_one_fault(self):
         path = self.write_test("Weak", seeds=[3, 4])
-        output = run_vagus("test", path, "--chaos", "12:lost,doubled,delayed,unplugged", "--results", self.results, status=1)
+        junit = self.folder / "junit.xml"
+        output = run_vagus("test", path, "--chaos", "12:lost,doubled,delayed,unplugged", "--results", self.results, "--junit", junit,
+                           status=1)
         self.assertIn("2 of 2 runs as expected", output)
+        self.expect_sets(junit, int(re.search(r"survives (\d+) of 12", output)[1]))
         found = re.search(r"FAILED \S+Weak\.test\.json: survives \d+ of 12 sets of faults\n  set (\d+), with seed (\d+); .*\n"
                           r"  1 fault of (\d) left, after (\d+) runs:\n    \S+ s to \S+ s: .*\n(.*\n)+?"
                           r"  vagus replay (\S+) --until \S+\n  vagus test (\S+)", output)
@@ -88,6 +92,21 @@ class Chaos(unittest.TestCase):
         strong = self.write_test("Strong", chaos=written["chaos"], seeds=written["seeds"])
         self.assertIn("1 of 1 runs as expected", run_vagus("test", strong))
         self.assertIn("no difference", run_vagus("replay", found[6]))
+
+    def expect_sets(self, junit, survived):
+        """Two seeds, and twelve sets of faults."""
+        # Debian's package is for Debian's Python, whichever runs this.
+        read = ("import json, sys, junitparser\n"
+                "(suite,) = junitparser.JUnitXml.fromfile(sys.argv[1])\n"
+                "print(json.dumps([suite.tests, suite.failures, suite.errors, [[case.name, case.is_passed] for case in suite]]))")
+        done = subprocess.run(["/usr/bin/python3", "-c", read, junit], capture_output=True, text=True, check=True)
+        tests, failures, errors, cases = json.loads(done.stdout)
+        self.assertEqual((tests, failures, errors), (14, 12 - survived, 0))
+        self.assertEqual(cases[:2], [["seed 3", True], ["seed 4", True]])
+        self.assertEqual([passed for _, passed in cases[2:]].count(True), survived)
+        for number, (name, _) in enumerate(cases[2:]):
+            self.assertRegex(name, rf"^seed {3 + number % 2} --chaos random:{number % 4 + 1}:{number + 1}:[\d.]+:lost,doubled,delayed,"
+                                   "unplugged$")
 
     def test_the_repaired_plan_survives(self):
         path = self.write_test("Strong")

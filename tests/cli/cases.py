@@ -277,6 +277,57 @@ class Cli(unittest.TestCase):
             finally:
                 program.terminate()
 
+    def test_a_trace_on_stdout_is_there_alone(self):
+        run = ("sim", self.world, "--headless", "--speed", "max", "--duration", "3", "--listen", "tcp:127.0.0.1:0")
+        plain = self.run_vagus(*run)
+        self.assertRegex(plain.stdout, r"^listening tcp:127\.0\.0\.1:\d+\n")
+        self.assertEqual(plain.stderr, "")
+        done = self.run_vagus(*run, "--trace", "-")
+        self.assertIn("pose", {json.loads(line)["kind"] for line in done.stdout.splitlines()})
+        self.assertEqual(done.stderr.splitlines()[1:], plain.stdout.splitlines()[1:])
+        self.assertRegex(done.stderr, r"^listening tcp:127\.0\.0\.1:\d+\n")
+
+    def unread(self, *words, stdout=subprocess.DEVNULL):
+        """Of a run whose trace nobody reads, in real time or with hosts on its bus: it ends all the same, and says what is missing."""
+        with subprocess.Popen([VAGUS, *words], stdout=stdout, stderr=subprocess.PIPE, text=True) as program:
+            if stdout == subprocess.DEVNULL:
+                reader = os.open(words[-1], os.O_RDONLY)
+                self.addCleanup(os.close, reader)
+            else:
+                fcntl.fcntl(program.stdout, fcntl.F_SETPIPE_SZ, 4096)
+            try:
+                status = program.wait(timeout=GIVE_UP_AFTER)
+            finally:
+                program.kill()
+            return status, program.stderr.read()
+
+    LEFT_OUT = r": nobody read it in time; [1-9]\d* lines were left out\n$"
+
+    def test_a_pipe_for_a_trace_that_nobody_reads_holds_up_no_bus(self):
+        fifo = self.folder / "trace"
+        os.mkfifo(fifo)
+        # 2,000 s are 2 MB of trace: more than the pipe holds, and what may wait for it twice.
+        status, said = self.unread("sim", self.world, "--headless", "--speed", "max", "--duration", "2000", "--listen",
+                                   "tcp:127.0.0.1:0", "--trace", fifo)
+        self.assertEqual(status, 1)
+        self.assertRegex(said, f"^vagus: {re.escape(str(fifo))}{self.LEFT_OUT}")
+
+    def test_the_trace_of_a_plan_that_nobody_reads_holds_up_no_robot(self):
+        plan = self.file("count.plan.json", json.dumps({
+            "format": "vagus-plan/1", "name": "Count", "configuration": {"n": {"type": "int", "initial": 0}},
+            "start": {"actor": "add"}, "actors": {
+                "add": {"template": "Assign", "in": {"value": "n + 1"}, "out": {"result": "n"}, "states": {"Done": "more"}},
+                "more": {"template": "Compare", "in": {"left": "n", "op": "'<'", "right": 3000},
+                         "states": {"True": "add", "False": "@terminate"}}}}))
+        status, said = self.unread("plan", "run", plan, "--quiet", "--trace", "-", stdout=subprocess.PIPE)
+        self.assertEqual(status, 1)
+        self.assertRegex(said, f"^vagus: standard output{self.LEFT_OUT}")
+        fifo = self.folder / "trace"
+        os.mkfifo(fifo)
+        status, said = self.unread("plan", "run", plan, "--quiet", "--trace", fifo)
+        self.assertEqual(status, 1)
+        self.assertRegex(said, f"^vagus: {re.escape(str(fifo))}{self.LEFT_OUT}")
+
     def test_a_run_that_hurries_alone_loses_no_line_to_a_slow_reader(self):
         with subprocess.Popen([VAGUS, "sim", self.world, "--headless", "--speed", "max", "--duration", "10000"],
                               stdout=subprocess.PIPE) as program:

@@ -382,6 +382,40 @@ class BusRecordings(unittest.TestCase):
         self.assertEqual(asked, ["stop-at", "continue", "set-variable", "stop-no-more", "continue", "end"])
         self.assertRegex(self.replays(), r"no difference$")
 
+    def test_another_plan_is_asked_what_it_decides_of_what_a_debugger_did(self):
+        self.start_robot()
+        program = self.start_debugger("break actor more count 2", "run")
+        program.wait_line("^breakpoint 1, paused at .* more ")
+        for line in ("set n = 4", "delete all", "continue"):
+            program.type(line)
+        program.wait_line("^the run is over at .*: OK")
+        program.type("quit")
+        self.assertEqual(program.wait_end(), 0, program.lines)
+        (self.folder / "other").mkdir()
+
+        def with_changed(change):
+            plan = json.loads(json.dumps(PLAN))
+            change(plan["actors"])
+            return self.replays("--with", self.write("other/Count.plan.json", plan), status=1)
+
+        def rename(actors):
+            actors["again"] = actors.pop("more")
+            actors["ask"]["states"]["Told"] = "again"
+        told = with_changed(lambda actors: actors["more"]["in"].update(right=4))
+        self.assertRegex(told, r"differs at [\d.]+ s: /plan/trace, in\.right\n  then: 5\n  now:  4\n")
+        self.assertRegex(told, r"it ends now: +OK at ")
+        # Its first other line is the one before what was written then.
+        self.assertRegex(with_changed(rename), r'differs at [\d.]+ s: /plan/trace, target\n  then: "more"\n  now:  "again"\n')
+        # What was set is not forgotten by a plan that decides the same.
+        same = self.write("other/Count.plan.json", dict(PLAN, help="the same"))
+        self.assertRegex(self.replays("--with", same), r"no difference$")
+        chain = [link["what"] for link in self.why("variable", "n", "--at", self.set_at())]
+        self.assertEqual(chain, ["a person gave the variable n its value"])
+
+    def set_at(self):
+        (line,) = [line for line in Recording(self.file).json("/vagus/input") if line["do"] == "set-variable"]
+        return line["t"]
+
     def test_a_node_that_leaves_while_the_plan_is_paused_has_left_again(self):
         robot = self.start_robot()
         program = self.start_debugger("break actor ask count 2", "run")

@@ -33,6 +33,18 @@ emit tick ticks
 onevent tick
 emit tock event.args[0]
 </node>"""
+# The e-puck of asebaplayground with the id 1; the name of each has its number, counted from 0. It feels its sensors by itself.
+EPUCK = """<node nodeId="{id}" name="e-puck{number}">var n = 0
+var ticks = 0
+onevent go
+n = args[1] + 1
+speed.left = n
+emit gone [args[0], n]
+onevent ir_sensors
+ticks += 1
+emit tick ticks
+</node>"""
+EPUCK_GO, EPUCK_GONE = "answer.aesl:9", "answer.aesl:12"
 # Lines of the first node; those of the second are 12 further down.
 GO, GONE, TIMER, TICK, HEAR_TICK, TOCK = (f"answer.aesl:{line}" for line in (10, 12, 13, 15, 16, 17))
 SECOND = {place: f"answer.aesl:{int(place.rpartition(':')[2]) + 12}" for place in (GO, GONE, TIMER, TICK, HEAR_TICK, TOCK)}
@@ -88,14 +100,14 @@ class PeerRecordings(unittest.TestCase):
 
     # ---- the bus ----
 
-    def start_robots(self, *ids):
+    def start_robots(self, *ids, kind="thymio2", node=NODE):
         """asebaplayground; gives the port of each robot."""
         self.ids = ids
         ports = [free_port() for _ in ids]
-        self.peer = self.start(playground(self.start(Display()), self.folder, ports, ids))
+        self.peer = self.start(playground(self.start(Display()), self.folder, ports, ids, kind))
         for port in ports:
             Bus(port).leave()
-        self.script.write_text(SCRIPT.format(nodes="\n".join(NODE.format(id=one) for one in ids)))
+        self.script.write_text(SCRIPT.format(nodes="\n".join(node.format(id=one, number=one - 1) for one in ids)))
         return ports
 
     def join(self, port):
@@ -192,6 +204,34 @@ class PeerRecordings(unittest.TestCase):
         self.behind_the_vagus_switch(1)
         self.ask_and_record()
         self.expect_chains_of_one_robot()
+
+    def test_e_pucks_of_asebaplayground(self):
+        ports = self.start_robots(1, 2, kind="e-puck", node=EPUCK)
+        self.join(foreign_switch(self.start, *(f"tcp:127.0.0.1;{port}" for port in ports)))
+        recorder = self.start_recorder()
+        self.wait_for("/bus/events", 1, lambda event: event["name"] == "tick" and event["node"] == 1)
+        self.wait_for("/bus/events", 1, lambda event: event["name"] == "tick" and event["node"] == 2)
+        self.emit("go", 9, 300)
+        self.wait_for_event("gone", 2)
+        moved = self.wait_for("/node/e-puck0/variables", 1, lambda line: line["set"].get("speed.left") == 301)
+        self.end(recorder)
+        recording = self.expect_whole()
+        self.assertEqual({(one["node"], one["name"]) for one in recording.json("/bus/nodes")}, {(1, "e-puck0"), (2, "e-puck1")})
+        self.assertEqual({one["node"] for one in recording.json("/bus/events") if one["name"] == "gone"}, {1, 2})
+        gone = next(one for one in recording.json("/bus/events") if one["name"] == "gone" and one["node"] == 1)
+        self.assertEqual(self.why("event", "gone", "--at", gone["t"]),
+                         [("e-puck0 sent gone, probably from here", EPUCK_GONE, "9 301", True),
+                          ("e-puck0 probably heard go", EPUCK_GO, "9 300", True),
+                          ("a host sent go", "", "9 300", False)])
+        self.assertIn("prox", {name.split("[")[0] for line in moved for name in line["set"]} | self.told("e-puck0", recording))
+        sent, felt = self.why("event", "tick")
+        self.assertRegex(sent[0], r"^e-puck[01] sent tick, probably from here$")
+        self.assertRegex(felt[0], r"^e-puck[01] probably felt ir_sensors$")
+
+    @staticmethod
+    def told(node, recording):
+        """The variables of the node that were recorded."""
+        return {name for line in recording.json(f"/node/{node}/variables") for name in line["set"]}
 
     def test_two_robots_with_one_name_are_told_apart(self):
         self.behind_asebaswitch(1, 2)

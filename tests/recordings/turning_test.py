@@ -207,6 +207,7 @@ class TurningPoint(unittest.TestCase):
         self.record_world(1)
         self.refused("contact >=", 'the condition "contact >=": expected a number')
         self.refused("conatct > 1", 'the condition "conatct > 1": ')
+        self.refused("actor == 'drive'", "the condition \"actor == 'drive'\": the plan has no actor \"drive\"; there is none")
         self.refused("node('thymio-II', 'speed') > 0", "the node \"thymio-II\" has no variable \"speed\"")
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 0)
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 1001)
@@ -285,6 +286,23 @@ class TurningPoint(unittest.TestCase):
         self.assertEqual([child for child in children if pathlib.Path(f"/proc/{child}").exists()], [])
         self.assertEqual(os.listdir(temporary), [])
         wait_until("a copy goes on", lambda: not any(runs(copy) for copy in copies))
+
+    def test_what_a_killed_search_left_is_deleted_by_the_next(self):
+        self.script(DRAW_AND_ACT.replace("DRAW", "30").replace("ACT", "30"))
+        self.record_world(60)
+        temporary = self.folder / "tmp"
+        temporary.mkdir()
+        words = ("why", self.file, "--turning-point", "t > 59", "--tries", 1000, "-j", 2)
+        with vagus(*words, env={"TMPDIR": str(temporary)}) as program:
+            copies = patiently_find(lambda: [copy for child in children_of(program.process.pid) for copy in children_of(child)])
+            children = children_of(program.process.pid)
+            program.signal(signal.SIGKILL)
+            program.wait_end()
+        wait_until("a process of the search goes on", lambda: not any(runs(one) for one in children + copies))
+        self.assertNotEqual(os.listdir(temporary), [])
+        with vagus("replay", self.file, "--until", 0.1, env={"TMPDIR": str(temporary)}) as program:
+            self.assertEqual(program.wait_end(), 0, program.lines)
+        self.assertEqual(os.listdir(temporary), [])
 
 
 def children_of(parent):

@@ -318,9 +318,9 @@ PLAYGROUND = """<!DOCTYPE aseba-playground>
 """
 
 
-def playground(display, folder, ports, ids):
-    """asebaplayground with a Thymio II of these node ids at these ports."""
-    robots = "\n".join(f'<robot type="thymio2" x="{30 + 25 * i}" y="50" angle="0" port="{port}" name="t{i + 1}" nodeId="{ids[i]}"/>'
+def playground(display, folder, ports, ids, kind="thymio2"):
+    """asebaplayground with robots of that kind, of these node ids, at these ports."""
+    robots = "\n".join(f'<robot type="{kind}" x="{30 + 25 * i}" y="50" angle="0" port="{port}" name="t{i + 1}" nodeId="{ids[i]}"/>'
                        for i, port in enumerate(ports))
     scenario = pathlib.Path(folder) / "arena.playground"
     scenario.write_text(PLAYGROUND.format(robots=robots), encoding="utf-8")

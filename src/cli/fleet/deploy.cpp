@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/temporary_folder.hpp"
 #include "base/text.hpp"
 #include "cli/output.hpp"
 #include "fleet/rollout.hpp"
@@ -25,30 +26,22 @@ constexpr size_t kTokenBytes = 24;
 class Shelf {
 public:
     static Result<std::unique_ptr<Shelf>> open(const FleetCall& call, const std::string& bytes) {
-        std::unique_ptr<Shelf> shelf(new Shelf());
-        std::string pattern = (fs::temp_directory_path() / "vagus-rollout-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) {
-            return Error{Code::Unavailable, pattern + ": cannot be made"};
-        }
-        shelf->folder_ = pattern;
-        TRY(write_file(shelf->folder_ / "index.html", "A version of a fleet of Vagus.\n"));
-        TRY(write_file(shelf->folder_ / shelf->token_, bytes));
+        // make_unique cannot reach the constructor.
+        std::unique_ptr<Shelf> shelf(new Shelf(TRY(TemporaryFolder::make("shelf"))));
+        const fs::path folder = shelf->folder_.path();
+        TRY(write_file(folder / "index.html", "A version of a fleet of Vagus.\n"));
+        TRY(write_file(folder / shelf->token_, bytes));
         TRY(shelf->serve(call));
         return shelf;
-    }
-    ~Shelf() {
-        server_.reset();
-        std::error_code failed;
-        if (!folder_.empty()) fs::remove_all(folder_, failed);
     }
     const std::string& address() const { return address_; }
 
 private:
-    Shelf() = default;
+    explicit Shelf(TemporaryFolder folder) : folder_(std::move(folder)) {}
 
     Status serve(const FleetCall& call) {
         serve::WebOptions options{
-            .pages = folder_.string(), .tls_cert = call.certificate, .tls_key = call.key};
+            .pages = folder_.path(), .tls_cert = call.certificate, .tls_key = call.key};
         const size_t colon = call.listen.rfind(':');
         const std::string port = colon == std::string::npos ? "" : call.listen.substr(colon + 1);
         const char* const end = port.data() + port.size();
@@ -75,7 +68,7 @@ private:
         return Status::done();
     }
 
-    fs::path folder_;
+    TemporaryFolder folder_;  // goes after the server
     const std::string token_ = hex_of(serve::random_bytes(kTokenBytes));
     std::string address_;
     std::unique_ptr<serve::WebServer> server_;

@@ -13,8 +13,8 @@
 #include <set>
 #include <vector>
 
+#include "base/log_lines.hpp"
 #include "base/time.hpp"
-#include "cli/log_lines.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "net/links.hpp"

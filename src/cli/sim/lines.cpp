@@ -42,20 +42,26 @@ std::string state_line(const session::SimSession& session, const sim::RobotView&
 
 }  // namespace
 
-SimLines::SimLines(const session::WorldBuses& buses) : buses_(buses) {
+SimLines::SimLines(const session::WorldBuses& buses, LinesOn on) : buses_(buses), on_(on) {
     for (const sim::RobotView& robot : buses.world().robots()) poses_.push_back(robot.pose);
+}
+
+bool SimLines::put(const std::string& line) const {
+    if (on_ == LinesOn::Stdout) return print(line);
+    say(line);
+    return true;
 }
 
 bool SimLines::tell_one(Tally& tally, const session::Note& note) {
     if (tally.count++ >= kNoteLinesMax) return true;
-    return print(stamp(note.at) + tally.word + "  " + visible(note.text) + "\n");
+    return put(stamp(note.at) + tally.word + "  " + visible(note.text) + "\n");
 }
 
 bool SimLines::tell_more(Tally& tally) const {
     const uint64_t count = std::exchange(tally.count, 0);
     if (count <= kNoteLinesMax) return true;
-    return print(stamp(buses_.now()) + tally.word + "  and " +
-                 std::to_string(count - kNoteLinesMax) + " more\n");
+    return put(stamp(buses_.now()) + tally.word + "  and " + std::to_string(count - kNoteLinesMax) +
+               " more\n");
 }
 
 bool SimLines::tell(const std::vector<session::Note>& notes) {
@@ -99,9 +105,9 @@ bool SimLines::tell_state() {
     bool open = true;
     for (Tally* const tally : {&loads_, &events_, &faults_, &plans_, &fleet_, &chaos_})
         open = tell_more(*tally) && open;
-    if (has_many_robots()) return print(summary()) && open;
+    if (has_many_robots()) return put(summary()) && open;
     for (const sim::RobotView& robot : buses_.world().robots()) {
-        open = print(state_line(buses_.of(robot.id), robot)) && open;
+        open = put(state_line(buses_.of(robot.id), robot)) && open;
     }
     return open;
 }

@@ -8,6 +8,7 @@
 //     1.000 s  500 robots  498 moving  2 at rest  500 running a script  3 stopped by a fault
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,16 @@ constexpr Duration kStateEvery = std::chrono::seconds(1);  // simulated
 constexpr size_t kRobotLinesMax = 20;                      // more robots are told as a summary
 constexpr uint64_t kNoteLinesMax = 20;  // of a kind in one such second; the rest is counted
 
+enum class LinesOn : uint8_t { Stdout, Stderr };
+
 class SimLines {
 public:
-    explicit SimLines(const session::WorldBuses& buses);
+    SimLines(const session::WorldBuses& buses, LinesOn on);
 
-    // Events, loads and faults to stdout, mistakes and troubles to stderr. False once nobody reads
-    // stdout.
+    // A line of another kind among them. False once nobody reads stdout.
+    bool put(const std::string& line) const;
+    // Events, loads and faults; mistakes and troubles are on stderr in any case. False once nobody
+    // reads stdout.
     bool tell(const std::vector<session::Note>& notes);
     // The state of the robots if a second has passed since the last time.
     bool tell_state();
@@ -42,6 +47,7 @@ private:
     std::string summary();
 
     const session::WorldBuses& buses_;  // owned by the run around
+    LinesOn on_;
     Time next_{};
     Tally events_{"event"};
     Tally loads_{"loaded"};

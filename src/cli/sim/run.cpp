@@ -47,7 +47,8 @@ public:
         : options_(options),
           robots_(robots),
           session_(robots.buses().common()),
-          lines_(robots.buses()),
+          // stdout is for one reader at a time.
+          lines_(robots.buses(), options.trace == "-" ? LinesOn::Stderr : LinesOn::Stdout),
           view_(session_),
           watch_(options.watch ? robots.buses().script_paths() : std::vector<std::string>()),
           pace_(options.speed),
@@ -114,7 +115,7 @@ Status SimRun::listen() {
         const auto target = TRY(net::parse_target(options_.listen));
         const auto listening = TRY(links_.listen(session_.world().bus(), target));
         listening_ = net::to_string(listening.target);
-        print("listening " + listening_ + "\n");
+        lines_.put("listening " + listening_ + "\n");
     }
     const auto& robots = session_.world().definition().robots;
     const auto views = session_.world().robots();
@@ -124,15 +125,16 @@ Status SimRun::listen() {
         const net::Target target{net::TcpPlace{"127.0.0.1", *robots[i].port}};
         const auto listening = TRY(links_.listen(*hub, target, {.clients = net::Clients::One}));
         ports_.push_back({listening.place, views[i].id});
-        print("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
+        lines_.put("listening " + net::to_string(listening.target) + " " + robots[i].name + "\n");
     }
     return Status::done();
 }
 
 Status SimRun::open_trace() {
-    // On stdout its lines are between the plain ones, as they happen, and wait for nobody either.
-    if (options_.trace == "-") return Status::done();
-    trace_ = TRY(LineSink::open(options_.trace, LineSink::When::WithinASecond));
+    // Who reads along sees what happens when it does.
+    const auto when =
+        options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
+    trace_ = TRY(LineSink::open(options_.trace, when));
     return Status::done();
 }
 
@@ -227,6 +229,7 @@ int SimRun::run() {
 void SimRun::pass_all() {
     std::optional<OutputNeverWaits> never;
     if (!on_terminal()) never.emplace(patience());
+    trace_.never_wait(patience());
     running_ = true;
     real_before_ = links_.now();
     while (!ended()) turn();
@@ -341,7 +344,6 @@ void SimRun::tell_notes() {
 }
 
 void SimRun::write_trace() {
-    if (options_.trace == "-") closed_ = !print(robots_.buses().take_trace()) || closed_;
     if (!trace_) return;
     trace_.write(robots_.buses().take_trace());
     trace_.pass(links_.now());

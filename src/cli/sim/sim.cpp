@@ -84,9 +84,10 @@ void add_sim(CLI::App& app, int& exit_code) {
     verb->add_option("--listen", options->listen,
                      "lets hosts connect to the bus; prints `listening tcp:127.0.0.1:PORT` first")
         ->type_name("TARGET");
-    takes_file(
-        *verb->add_option("--trace", options->trace, "writes what happens, one JSON object a line"),
-        {});
+    takes_file(*verb->add_option("--trace", options->trace,
+                                 "writes what happens, one JSON object a line; - is "
+                                 "stdout, and other lines are on stderr then"),
+               {});
     verb->add_option("--chaos", options->chaos,
                      "what breaks in the world: a JSON file, the JSON itself, or random:N[:SEED]")
         ->type_name("FAULTS");

@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "base/log_lines.hpp"
 #include "base/text.hpp"
 #include "cli/fleet/broker_options.hpp"
-#include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/studio/door_options.hpp"

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 
+#include "base/log_lines.hpp"
 #include "cli/fleet/broker_options.hpp"
-#include "cli/log_lines.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/studio/door_options.hpp"

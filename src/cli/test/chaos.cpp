@@ -36,6 +36,7 @@ struct Tried {
     bool broken = false;
     trial::Outcome outcome = {};
     std::string trouble = {};
+    double seconds = 0;  // of wall clock
 };
 
 bool takes_part(const trial::TestResult& result) {
@@ -140,12 +141,25 @@ private:
 Tried read_tried(JobResult result) {
     Tried tried;
     tried.trouble = std::move(result.trouble);
+    tried.seconds = result.seconds;
     const std::string& text = result.text;
     if (tried.trouble.empty() && text.starts_with(kUnfit)) tried.trouble = text.substr(1);
     if (tried.trouble.empty() && text.empty()) tried.trouble = "its process said nothing";
     tried.broken = !tried.trouble.empty() || text.starts_with(kBroken);
     if (tried.trouble.empty()) tried.outcome = trial::read_outcome(text.substr(1));
     return tried;
+}
+
+void keep(const std::vector<Try>& all, const std::vector<Tried>& tried, const ChaosTries& tries,
+          std::vector<trial::TestResult>& results) {
+    for (size_t i = 0; i < all.size(); ++i) {
+        results[static_cast<size_t>(all[i].result - results.data())].faults.push_back(
+            {.words = words_of(all[i], tries),
+             .result = {.seed = all[i].seed,
+                        .outcome = tried[i].outcome,
+                        .trouble = tried[i].trouble,
+                        .seconds = tried[i].seconds}});
+    }
 }
 
 }  // namespace
@@ -185,7 +199,7 @@ std::string result_stem(const std::vector<trial::TestResult>& all, const trial::
     return (fs::path(folder) / (prefix + name)).string();
 }
 
-size_t try_chaos(const std::vector<trial::TestResult>& results, const ChaosTries& tries) {
+size_t try_chaos(std::vector<trial::TestResult>& results, const ChaosTries& tries) {
     const std::vector<Try> all = tries_of(results, tries);
     std::vector<Tried> tried(all.size());
     run_jobs(
@@ -194,6 +208,7 @@ size_t try_chaos(const std::vector<trial::TestResult>& results, const ChaosTries
             tried[i] = read_tried(std::move(result));
             return true;
         });
+    keep(all, tried, tries, results);
     // Of each test the first that it did not survive.
     std::vector<size_t> firsts;
     for (size_t i = 0; i < all.size(); ++i) {

@@ -2,7 +2,7 @@
 // first set of faults that one does not survive is shrunk and written as a test.
 //
 //     const ChaosTries tries = TRY(parse_chaos_tries("20:lost,hung"));
-//     const size_t broken = try_chaos(results, tries);
+//     const size_t broken = try_chaos(results, tries);   // results[0].faults: what came of each
 #pragma once
 
 #include <string>
@@ -28,8 +28,9 @@ struct ChaosTries {
 Result<ChaosTries> parse_chaos_tries(const std::string& text);
 
 // Of tests that have a world and no faults of their own, and whose runs were as expected. Tells
-// what came of each. The number of tests that did not survive.
-size_t try_chaos(const std::vector<trial::TestResult>& results, const ChaosTries& tries);
+// what came of each, and adds what came of each set to its result. The number of tests that did not
+// survive.
+size_t try_chaos(std::vector<trial::TestResult>& results, const ChaosTries& tries);
 
 // Where in the folder the files of a test go: FOLDER/NAME. Two tests of one name have their own
 // folder in it.

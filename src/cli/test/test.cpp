@@ -200,11 +200,14 @@ private:
         const Status written = write_files(coverage, recorded.value().plans());
         if (!written.ok()) return complain(written.error());
         if (options_.tries.sets > 0) failed += break_things();
+        // Again, now that it has the sets of faults, too.
+        const Status told = options_.tries.sets > 0 ? write_junit() : Status::done();
+        if (!told.ok()) return complain(told.error());
         return failed == 0 ? kExitDone : kExitFailed;
     }
 
     // How many tests did not survive it.
-    size_t break_things() const {
+    size_t break_things() {
         ChaosTries tries = options_.tries;
         tries.at_once = at_once();
         tries.results = options_.results;
@@ -237,11 +240,14 @@ private:
                            plan::text_of(seconds_of(first)));
     }
 
+    Status write_junit() const {
+        if (options_.junit.empty()) return Status::done();
+        return write_file(options_.junit, trial::format_junit(results_));
+    }
+
     Status write_files(const trial::Coverage& coverage,
                        const std::vector<plan::Plan>& recorded) const {
-        if (!options_.junit.empty()) {
-            TRY(write_file(options_.junit, trial::format_junit(results_)));
-        }
+        TRY(write_junit());
         if (options_.coverage.empty()) return Status::done();
         const fs::path folder(options_.coverage);
         std::error_code error;

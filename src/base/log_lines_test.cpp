@@ -1,4 +1,4 @@
-#include "cli/log_lines.hpp"
+#include "base/log_lines.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 #include "base/line_sink.hpp"
 
-namespace vagus::cli {
+namespace vagus {
 namespace {
 
 // Two ends; the writing one waits, as a terminal or a shell's pipe does.
@@ -106,6 +106,22 @@ TEST(LogLines, WhoAddsNeverWaitsAndNoLineIsLostUncounted) {
     }
 }
 
+TEST(LogLines, WhereAProgramReadsMissingLinesAreCountedInstead) {
+    const auto ends = pipe_ends();
+    constexpr auto kCounted = LogLines::Missing::Counted;
+    LogLines read(ends->write, {}, kCounted);
+    read.add_unescaped("a\x1b\nb\n");
+    EXPECT_EQ(read.finish(), 0u);
+    EXPECT_EQ(ends->take_line(), "a\x1b");
+    EXPECT_EQ(ends->take_line(), "b");
+    // One batch may be with the thread, another one waits, and the rest finds no room.
+    ends->fill();
+    LogLines unread(ends->write, {}, kCounted);
+    constexpr size_t kLines = 4 * kLogBytesMax / 64;
+    for (size_t i = 0; i < kLines; ++i) unread.add_unescaped(std::string(63, 'x') + "\n");
+    EXPECT_EQ(unread.finish(), kLines);
+}
+
 TEST(LogLines, WithPatienceAReaderGetsEveryLine) {
     const auto ends = pipe_ends();
     constexpr size_t kLines = 8 * kLogBytesMax / 64;
@@ -157,4 +173,4 @@ TEST(LogLines, ItEndsWithoutAReader) {
 }
 
 }  // namespace
-}  // namespace vagus::cli
+}  // namespace vagus

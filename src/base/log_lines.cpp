@@ -1,4 +1,4 @@
-#include "cli/log_lines.hpp"
+#include "base/log_lines.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 #include "base/text.hpp"
 
-namespace vagus::cli {
+namespace vagus {
 
 namespace {
 
@@ -32,10 +32,14 @@ std::string_view lines_that_fit(std::string_view lines, size_t room) {
     return end == lines.npos ? std::string_view{} : lines.substr(0, end + 1);
 }
 
+uint64_t lines_in(std::string_view text) {
+    return static_cast<uint64_t>(std::ranges::count(text, '\n'));
+}
+
 }  // namespace
 
-LogLines::LogLines(int descriptor, Duration patience)
-    : descriptor_(descriptor), patience_(patience) {
+LogLines::LogLines(int descriptor, Duration patience, Missing missing)
+    : descriptor_(descriptor), patience_(patience), missing_(missing) {
     struct stat file = {};
     if (::fstat(descriptor, &file) == 0) {
         socket_ = S_ISSOCK(file.st_mode);
@@ -48,14 +52,21 @@ LogLines::LogLines(int descriptor, Duration patience)
 }
 
 LogLines::~LogLines() {
-    thread_.request_stop();
-    thread_.join();
+    (void)finish();
     if (own_) ::close(descriptor_);
 }
 
+uint64_t LogLines::finish() {
+    thread_.request_stop();
+    if (thread_.joinable()) thread_.join();
+    return counted_ + left_out_ + (nobody_there_ ? 0 : lines_in(waiting_));
+}
+
 bool LogLines::add(std::string_view lines) {
-    const std::string visible = visible_lines(lines);
-    std::string_view rest = visible;
+    return add_unescaped(visible_lines(lines));
+}
+
+bool LogLines::add_unescaped(std::string_view rest) {
     std::unique_lock lock(mutex_);
     while (!rest.empty() && !nobody_there_) {
         const std::string_view piece = lines_that_fit(rest, kLogBytesMax - waiting_.size());
@@ -67,7 +78,7 @@ bool LogLines::add(std::string_view lines) {
         } else if (left_out_ == 0 && !waited_ && patience_ > Duration{} && !waiting_.empty()) {
             make_room(lock);
         } else {
-            left_out_ += static_cast<size_t>(std::count(rest.begin(), rest.end(), '\n'));
+            left_out_ += lines_in(rest);
             break;
         }
     }
@@ -91,22 +102,35 @@ void LogLines::run(const std::stop_token& stop) {
             std::unique_lock lock(mutex_);
             const auto is_posted = [this] { return !waiting_.empty() || left_out_ > 0; };
             if (!posted_.wait(lock, stop, is_posted)) return;
-            lines = std::exchange(waiting_, {});
-            if (const size_t left_out = std::exchange(left_out_, 0); left_out > 0) {
-                lines += fmt::format("vagus: {} lines were left out here\n", left_out);
-            }
-            waited_ = false;
+            lines = take_lines();
         }
         taken_.notify_all();
-        wrote = write(lines, stop);
-        if (wrote != Wrote::NobodyIsThere) continue;
+        std::string_view left = lines;
+        wrote = write(left, stop);
         const std::lock_guard lock(mutex_);
+        counted_ += lines_in(left);
+        if (wrote != Wrote::NobodyIsThere) continue;
         nobody_there_ = true;
         taken_.notify_all();
     }
 }
 
-LogLines::Wrote LogLines::write(std::string_view bytes, const std::stop_token& stop) const {
+// With the mutex held.
+std::string LogLines::take_lines() {
+    std::string lines = std::exchange(waiting_, {});
+    const uint64_t left_out = std::exchange(left_out_, 0);
+    waited_ = false;
+    if (missing_ == Missing::Counted) {
+        counted_ += left_out;
+    } else if (left_out > 0) {
+        lines += fmt::format("vagus: {} lines were left out here\n", left_out);
+    } else {
+        // All of them are there.
+    }
+    return lines;
+}
+
+LogLines::Wrote LogLines::write(std::string_view& bytes, const std::stop_token& stop) const {
     int looks = kLastLooks;
     while (!bytes.empty()) {
         // Where a write could wait, it is small enough for the room that poll() has seen.
@@ -137,4 +161,4 @@ bool LogLines::looks_again(int& looks, const std::stop_token& stop) const {
     }
 }
 
-}  // namespace vagus::cli
+}  // namespace vagus

@@ -1,6 +1,7 @@
 // What axe finds serious, in each view and theme.
 import { look } from './support/axe.mjs';
 import { seen, test, until } from './support/studio.mjs';
+/** @import { Studio } from './support/studio.mjs' */
 
 for (const theme of /** @type {const} */ (['dark', 'light'])) {
   test(`the start screen, ${theme}`, { theme }, async (studio) => {
@@ -40,7 +41,10 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
       for (const shown of ['All data arrows', 'Text', 'What it does'])
         await page.getByRole('switch', { name: shown }).click();
       await look(studio, 'a plan with all that is beside it');
+      await command('Show Timeline');
+      await menu(studio, 'Open a run before this one');
       await layout('Script');
+      await menu(studio, 'New file or folder');
       for (const panel of [
         'Palette',
         'Network',
@@ -68,4 +72,18 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
       await look(studio, 'keys');
     },
   );
+}
+
+/** Open, as it is before a key chooses an item, and with one chosen. */
+async function menu(/** @type {Studio} */ studio, /** @type {string} */ button) {
+  const { page, press } = studio;
+  await page.getByRole('button', { name: button }).click();
+  const opened = page.getByRole('menu', { name: button });
+  await seen(opened);
+  await look(studio, `the menu “${button}”`);
+  await press('ArrowDown');
+  await seen(opened.locator('[role=menuitem]:focus'));
+  await look(studio, `the menu “${button}”, an item chosen`);
+  await press('Escape');
+  await opened.waitFor({ state: 'hidden' });
 }

@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
+import { makeProject } from './support/robots.mjs';
 import { boxOf, gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
-/** @import { Locator, Page, Studio } from './support/studio.mjs' */
+/** @import { Locator, Page, Studio, TestContext } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
 /** Where examples/follow-wall/hall.world.json puts its robot: -1.1 rad are -63.0°. */
@@ -254,6 +255,50 @@ test(
     await press('Escape');
     await gone(bar(page));
     await reads(caption, /^carbot$/);
+  },
+);
+
+// Pictures of four cameras are kept: the fifth robot has none, of no instant.
+test(
+  'where no picture of a camera was kept, its place says so',
+  {
+    prepare: (/** @type {TestContext} */ t) =>
+      makeProject(
+        t,
+        { name: 'Five', world: 'five.world.json' },
+        {
+          'five.world.json': JSON.stringify({
+            format: 'vagus-world/1',
+            name: 'Five',
+            size: [6, 2],
+            robots: [1, 2, 3, 4, 5].map((i) => ({ name: `r${i}`, type: 'carbot', at: [i, 1] })),
+          }),
+        },
+      ),
+  },
+  async (studio) => {
+    const { page, press } = studio;
+    await run(studio, 3);
+    await press('F8');
+    const camera = page.locator('.world__camera');
+    const caption = camera.locator('figcaption');
+    const look = async (/** @type {RegExp} */ says) => {
+      await page.getByRole('application', { name: /^World/ }).focus();
+      for (let presses = 0; !says.test(await caption.innerText()); presses++) {
+        assert.ok(presses < 10, `N comes to ${says}`);
+        await press('n');
+        await seen(camera);
+      }
+    };
+    await look(/^r5$/);
+    const picture = camera.getByRole('img', { name: 'What the camera of r5 sees' });
+    await seen(picture);
+    await click(page, 2 / 30);
+    await reads(caption, /^No picture of r5 was kept of this instant\.$/);
+    assert.equal(await picture.isVisible(), false);
+    // Of the others there is one.
+    await look(/^r[1-4] at \d+\.\d s$/);
+    await seen(camera.getByRole('img'));
   },
 );
 

@@ -26,13 +26,34 @@ export function StudioMenu({
         divider: 'menu__line',
       }}
       returnFocus={false}
+      withInitialFocusPlaceholder={false}
       {...rest}
       opened={open.opened}
       onChange={open.onChange}
     >
       <Menu.Target>{button as React.ReactElement}</Menu.Target>
-      <Menu.Dropdown onKeyDown={open.onKeyDown}>{children}</Menu.Dropdown>
+      <Menu.Dropdown onKeyDown={open.onKeyDown}>
+        <Items>{children}</Items>
+      </Menu.Dropdown>
     </Menu>
+  );
+}
+
+/**
+ * Has the focus until a key chooses an item. The library has an element of its own for that, between the items,
+ * with no role that a menu may contain.
+ */
+function Items({ children }: { children: ReactNode }) {
+  return (
+    <div
+      role="group"
+      tabIndex={-1}
+      data-autofocus
+      data-mantine-stop-propagation="true"
+      className="menu__items"
+    >
+      {children}
+    </div>
   );
 }
 

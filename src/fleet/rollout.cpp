@@ -58,11 +58,16 @@ void Rollout::hear(const LinkEvent& event, Time now) {
 
 // A robot that was told twice tells once more what came of it.
 void Rollout::hear_version(Robot& robot, const Version& version) {
-    if (version.number != options_.want.number || robot.place != Place::Wanted) return;
-    if (version.result == "taken") return;
-    if (version.result != "started") return fail(robot, version.result + ": " + version.why);
-    robot.place = Place::Started;
-    robot.until = now_ + kHealthyFor;
+    if (version.number != options_.want.number || version.result == "taken") return;
+    if (robot.place == Place::Wanted) {
+        if (version.result != "started") return fail(robot, version.result + ": " + version.why);
+        robot.place = Place::Started;
+        robot.begun = now_;
+        robot.until = now_ + kHealthyFor;
+    }
+    if (robot.place != Place::Started) return;
+    robot.lacks = version.healthy == "not_yet";
+    robot.why = robot.lacks ? version.why : "";
 }
 
 void Rollout::hear_state(Robot& robot, const State& state) {
@@ -76,14 +81,29 @@ void Rollout::fail(Robot& robot, std::string why) {
     robot.why = std::move(why);
 }
 
+// Whether its time is over.
+void Rollout::pass(Robot& robot) {
+    if (now_ < next_of(robot)) return;
+    if (robot.place == Place::Wanted)
+        return fail(robot, "did not answer; it finds it when it is back");
+    if (robot.place != Place::Started) return;
+    if (!robot.lacks) {
+        robot.place = Place::Well;
+        return;
+    }
+    fail(robot, fmt::format("not well within {} s of its start: {}", seconds_of(options_.within),
+                            robot.why));
+}
+
+Time Rollout::next_of(const Robot& robot) const {
+    if (robot.place == Place::Started && robot.lacks) return robot.begun + options_.within;
+    const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
+    return waits ? robot.until : Time::max();
+}
+
 void Rollout::tick(Time now) {
     now_ = now;
-    for (auto& [name, robot] : robots_) {
-        if (now_ < robot.until) continue;
-        if (robot.place == Place::Started) robot.place = Place::Well;
-        if (robot.place == Place::Wanted)
-            fail(robot, "did not answer; it finds it when it is back");
-    }
+    for (auto& [name, robot] : robots_) pass(robot);
     const bool all_well = std::all_of(
         options_.robots.begin(), options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
         [this](const auto& name) { return robots_.at(name).place == Place::Well; });
@@ -94,7 +114,7 @@ void Rollout::begin_step() {
     const size_t end = options_.steps[step_++];
     for (; wanted_ < end; ++wanted_) {
         const std::string& name = options_.robots[wanted_];
-        robots_.at(name) = {Place::Wanted, now_ + options_.within, {}};
+        robots_.at(name) = {.place = Place::Wanted, .until = now_ + options_.within};
         posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = name}),
                           .payload = payload_of(options_.want),
                           .qos = info_of(Kind::Want).qos,
@@ -104,10 +124,7 @@ void Rollout::begin_step() {
 
 Time Rollout::next_tick() const {
     Time next = Time::max();
-    for (const auto& [name, robot] : robots_) {
-        const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
-        if (waits) next = std::min(next, robot.until);
-    }
+    for (const auto& [name, robot] : robots_) next = std::min(next, next_of(robot));
     return next;
 }
 
@@ -126,29 +143,34 @@ bool Rollout::all_are_well() const {
                        [](const auto& one) { return one.second.place == Place::Well; });
 }
 
-std::vector<std::pair<std::string, std::string>> Rollout::table() const {
-    std::vector<std::pair<std::string, std::string>> lines;
+std::vector<Rollout::Line> Rollout::table() const {
+    std::vector<Line> lines;
     for (const std::string& name : options_.robots) {
         const Robot& robot = robots_.at(name);
-        switch (robot.place) {
-            case Place::Later:
-                lines.emplace_back(name, "as it was");
-                break;
-            case Place::Wanted:
-                lines.emplace_back(name, "on its way");
-                break;
-            case Place::Started:
-                lines.emplace_back(name, "started");
-                break;
-            case Place::Well:
-                lines.emplace_back(name, "well");
-                break;
-            case Place::Failed:
-                lines.emplace_back(name, robot.why);
-                break;
-        }
+        lines.push_back({name, robot.place, robot.why});
     }
     return lines;
+}
+
+const char* word_of(Rollout::Place place) {
+    switch (place) {
+        case Rollout::Place::Later:
+            return "as it was";
+        case Rollout::Place::Wanted:
+            return "wanted";
+        case Rollout::Place::Started:
+            return "started";
+        case Rollout::Place::Well:
+            return "well";
+        case Rollout::Place::Failed:
+            return "failed";
+    }
+    return "as it was";
+}
+
+std::string text_of(const Rollout::Line& line) {
+    if (line.why.empty()) return word_of(line.place);
+    return fmt::format("{}: {}", word_of(line.place), line.why);
 }
 
 }  // namespace vagus::fleet

@@ -11,10 +11,10 @@ from harness import GIVE_UP_AFTER, vagus  # noqa: E402
 
 
 class Rollout(Case):
-    def version(self, script="var edition = 2\n" + SCRIPT):
-        """A folder with another version of the project of the robots."""
+    def version(self, script="var edition = 2\n" + SCRIPT, **more):
+        """A folder with another version of the project of the robots; `more` is of its key "fleet"."""
         folder = self.folder / "version"
-        projects.thymio(folder, script="", fleet=PART)
+        projects.thymio(folder, script="", fleet={**PART, **more})
         projects.write(folder, "robot.aesl", AESL.format(script=script))
         return folder
 
@@ -38,7 +38,7 @@ class Rollout(Case):
         self.two_robots()
         done = self.deploy("all", "--project", self.version())
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, r"(?s)r1: on its way.*r1: well.*r2: on its way.*r2: well.*2 of 2 robots: well")
+        self.assertRegex(done.stdout, r"(?s)r1: wanted.*r1: well.*r2: wanted.*r2: well.*2 of 2 robots: well")
         self.is_told("r2", "thymio-II.edition", 2)
         done = self.desk("deploy", "all", "--rollback")
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -49,9 +49,28 @@ class Rollout(Case):
         self.two_robots()
         done = self.deploy("all", "--project", self.version(script="onevent nobody.knows.this\n\tx = 1\n"))
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stdout, r"r1: refused: it has mistakes; nothing was changed; robot\.aesl#1:\d+: ")
+        self.assertRegex(done.stdout, r"r1: failed: refused: it has mistakes; nothing was changed; robot\.aesl#1:\d+: ")
         self.assertRegex(done.stdout, r"(?s)r2: as it was.*0 of 2 robots: well")
         self.assertEqual(self.state("r1"), "running")
+
+    def test_a_robot_is_well_when_its_own_condition_was_true(self):
+        self.two_robots()
+        condition = "node('thymio-II', 'edition') == {}"
+        done = self.deploy("all", "--project", self.version(healthy={"condition": condition.format(2), "for": 1}))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("2 of 2 robots: well", done.stdout)
+        done = self.deploy("all", "--project", self.version(healthy={"condition": condition.format(3), "for": 1}), wait=6)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("r1: failed: not well within 6 s of its start: its condition node('thymio-II', 'edition') == 3 is not true: "
+                      "node('thymio-II', 'edition') = 2", done.stdout)
+        self.assertRegex(done.stdout, r"(?s)r2: as it was.*0 of 2 robots: well")
+
+    def test_a_condition_with_a_name_that_is_none_is_refused(self):
+        self.two_robots()
+        version = self.version(healthy={"condition": "node('thymio-II', 'editon') == 2"})
+        done = self.deploy("all", "--project", version)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r'r1: failed: refused: .*vagus\.json:\d+: "condition" of "healthy": .*did you mean edition\?')
 
     def test_a_robot_that_was_away_finds_it_when_it_is_back(self):
         self.broker("r1")
@@ -60,7 +79,7 @@ class Rollout(Case):
         first.kill()
         with vagus("fleet", self.target, *self.words("r1", "--project", self.version()), *self.login("operator"), "--wait",
                    GIVE_UP_AFTER) as program:
-            program.wait_line(r"^r1: on its way$")
+            program.wait_line(r"^r1: wanted$")
             self.joined("r1")
             program.wait_line(r"^r1: well$")
             self.assertEqual(program.wait_end(), 0)

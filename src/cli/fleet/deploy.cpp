@@ -93,15 +93,18 @@ std::vector<std::string> in_order(FleetSession& session, const FleetCall& call) 
 }
 
 int roll_out(FleetSession& session, fleet::Rollout rollout) {
+    using Place = fleet::Rollout::Place;
     std::map<std::string, std::string> told;
     session.on_event([&](const fleet::LinkEvent& event) { rollout.hear(event, session.now()); });
     session.subscribe({{fleet::filter_of(session.fleet(), fleet::Kind::Version)}});
     const auto turn = [&] {
         rollout.tick(session.now());
         for (const fleet::Post& post : rollout.take()) session.publish(post);
-        for (const auto& [robot, line] : rollout.table()) {
-            if (line == "as it was" || std::exchange(told[robot], line) == line) continue;
-            print(fmt::format("{}: {}\n", robot, line));
+        for (const fleet::Rollout::Line& line : rollout.table()) {
+            const std::string text = fleet::text_of(line);
+            if (line.place == Place::Later || std::exchange(told[line.robot], text) == text)
+                continue;
+            print(fmt::format("{}: {}\n", line.robot, text));
         }
         return rollout.is_over();
     };
@@ -109,9 +112,9 @@ int roll_out(FleetSession& session, fleet::Rollout rollout) {
     session.on_event([](auto&) {});
     size_t well = 0;
     const auto table = rollout.table();
-    for (const auto& [robot, line] : table) {
-        if (line == "well") ++well;
-        if (line == "as it was") print(robot + ": as it was\n");
+    for (const fleet::Rollout::Line& line : table) {
+        if (line.place == Place::Well) ++well;
+        if (line.place == Place::Later) print(line.robot + ": as it was\n");
     }
     print(fmt::format("{} of {} robots: well\n", well, table.size()));
     if (!ended) say("the roll-out was left; robots that have it go on with it\n");

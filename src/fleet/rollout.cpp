@@ -31,7 +31,7 @@ Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots) {
         const auto step = read_step(one, robots);
         if (!step) {
             return Error{Code::BadInput,
-                         fmt::format("--steps {}: expected numbers of robots or percent, such as "
+                         fmt::format("steps {}: expected numbers of robots or percent, such as "
                                      "1,10%,100%, found \"{}\"",
                                      text, one)};
         }
@@ -47,6 +47,12 @@ Rollout::Rollout(Options options) : options_(std::move(options)) {
 
 void Rollout::hear(const LinkEvent& event, Time now) {
     now_ = now;
+    // What was said while there was no connection did not arrive.
+    if (std::holds_alternative<Connected>(event)) {
+        for (const auto& [name, robot] : robots_) {
+            if (robot.place == Place::Wanted || robot.silent) want_of(name);
+        }
+    }
     const auto* received = std::get_if<Received>(&event);
     if (received == nullptr) return;
     const auto found = robots_.find(received->heard.topic.robot);
@@ -59,7 +65,9 @@ void Rollout::hear(const LinkEvent& event, Time now) {
 // A robot that was told twice tells once more what came of it.
 void Rollout::hear_version(Robot& robot, const Version& version) {
     if (version.number != options_.want.number || version.result == "taken") return;
-    if (robot.place == Place::Wanted) {
+    if (robot.place == Place::Wanted || robot.silent) {
+        robot.silent = false;
+        robot.has = version.result != "refused" && version.result != "rolled_back";
         if (version.result != "started") return fail(robot, version.result + ": " + version.why);
         robot.place = Place::Started;
         robot.begun = now_;
@@ -84,8 +92,10 @@ void Rollout::fail(Robot& robot, std::string why) {
 // Whether its time is over.
 void Rollout::pass(Robot& robot) {
     if (now_ < next_of(robot)) return;
-    if (robot.place == Place::Wanted)
+    if (robot.place == Place::Wanted) {
+        robot.silent = true;
         return fail(robot, "did not answer; it finds it when it is back");
+    }
     if (robot.place != Place::Started) return;
     if (!robot.lacks) {
         robot.place = Place::Well;
@@ -107,7 +117,8 @@ void Rollout::tick(Time now) {
     const bool all_well = std::all_of(
         options_.robots.begin(), options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
         [this](const auto& name) { return robots_.at(name).place == Place::Well; });
-    if (all_well && step_ < options_.steps.size()) begin_step();
+    ended_ = ended_ || is_over();
+    if (all_well && !ended_ && step_ < options_.steps.size()) begin_step();
 }
 
 void Rollout::begin_step() {
@@ -115,11 +126,15 @@ void Rollout::begin_step() {
     for (; wanted_ < end; ++wanted_) {
         const std::string& name = options_.robots[wanted_];
         robots_.at(name) = {.place = Place::Wanted, .until = now_ + options_.within};
-        posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = name}),
-                          .payload = payload_of(options_.want),
-                          .qos = info_of(Kind::Want).qos,
-                          .retained = info_of(Kind::Want).retained});
+        want_of(name);
     }
+}
+
+void Rollout::want_of(const std::string& robot) {
+    posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = robot}),
+                      .payload = payload_of(options_.want),
+                      .qos = info_of(Kind::Want).qos,
+                      .retained = info_of(Kind::Want).retained});
 }
 
 Time Rollout::next_tick() const {
@@ -130,6 +145,7 @@ Time Rollout::next_tick() const {
 
 // Of a step that failed the others come to their end, too.
 bool Rollout::is_over() const {
+    if (ended_) return true;
     bool failed = false, waits = false;
     for (const auto& [name, robot] : robots_) {
         failed = failed || robot.place == Place::Failed;
@@ -147,7 +163,7 @@ std::vector<Rollout::Line> Rollout::table() const {
     std::vector<Line> lines;
     for (const std::string& name : options_.robots) {
         const Robot& robot = robots_.at(name);
-        lines.push_back({name, robot.place, robot.why});
+        lines.push_back({name, robot.place, robot.why, robot.has});
     }
     return lines;
 }

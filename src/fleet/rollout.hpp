@@ -5,7 +5,7 @@
 //     for (const LinkEvent& event : link.take()) rollout.hear(event, now);
 //     rollout.tick(now);
 //     for (const Post& post : rollout.take()) link.publish(post);
-//     if (rollout.is_over()) for (const auto& [robot, line] : rollout.table()) show(robot, line);
+//     for (const Rollout::Line& line : rollout.table()) show(line.robot, text_of(line));
 #pragma once
 
 #include <map>
@@ -43,7 +43,10 @@ public:
     Time next_tick() const;
     std::vector<Post> take() { return std::exchange(posts_, {}); }
 
-    // All are well, or one is not: then nobody else gets it.
+    // Nobody else gets it from now on; it is still heard what becomes of those that do.
+    void stop() { ended_ = true; }
+    // All are well, or one is not: then nobody else gets it. A robot that did not answer may still
+    // find it, and its line says so.
     bool is_over() const;
     bool all_are_well() const;
     // What became of each robot, in their order; `why` of Failed, and of Started what its project's
@@ -52,6 +55,7 @@ public:
         std::string robot;
         Place place = Place::Later;
         std::string why = {};
+        bool has = false;  // the version is in force there
         friend bool operator==(const Line&, const Line&) = default;
     };
     std::vector<Line> table() const;
@@ -64,6 +68,8 @@ private:
         Time begun{};        // Started: since when
         bool lacks = false;  // Started: its project's condition was not true for long enough yet
         std::string why = {};
+        bool silent = false;  // Failed: it did not answer
+        bool has = false;
     };
     void hear_version(Robot& robot, const Version& version);
     void hear_state(Robot& robot, const State& state);
@@ -71,9 +77,11 @@ private:
     Time next_of(const Robot& robot) const;
     void fail(Robot& robot, std::string why);
     void begin_step();
+    void want_of(const std::string& robot);
 
     const Options options_;
     std::map<std::string, Robot> robots_;
+    bool ended_ = false;
     size_t step_ = 0;    // the next one
     size_t wanted_ = 0;  // so many robots, of the first
     std::vector<Post> posts_;

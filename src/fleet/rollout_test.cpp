@@ -104,6 +104,41 @@ TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
     EXPECT_EQ(c.line(0), "failed: did not answer; it finds it when it is back");
 }
 
+TEST(Rollout, WhoIsBackLaterIsWellAndTheRolloutStaysOver) {
+    Case c;
+    c.pass(60s);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.rollout.hear(Connected{}, c.now);
+    EXPECT_EQ(c.wanted(), Texts{"r1"}) << "the link was lost: it may not have arrived";
+    c.tells("r1", "started");
+    EXPECT_TRUE(c.rollout.table()[0].has);
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{}) << "nobody else gets it";
+}
+
+TEST(Rollout, OneThatIsStoppedGoesToNobodyElse) {
+    Case c;
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.rollout.stop();
+    c.tells("r1", "started");
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{});
+}
+
+TEST(Rollout, WhoRefusedItDoesNotHaveIt) {
+    for (const auto& [result, has] : {std::pair("refused", false), std::pair("rolled_back", false),
+                                      std::pair("waiting", true), std::pair("stopped", true)}) {
+        Case c;
+        c.tells("r1", result);
+        EXPECT_EQ(c.rollout.table()[0].has, has) << result;
+    }
+}
+
 TEST(Rollout, ARobotWhoseConditionIsNotTrueYetIsWaitedFor) {
     Case c;
     c.pass(20s);

@@ -3,83 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <filesystem>
 
-#include "base/file.hpp"
-#include "base/text.hpp"
 #include "cli/output.hpp"
 #include "fleet/rollout.hpp"
-#include "serve/field/pack.hpp"
 #include "serve/process.hpp"
-#include "serve/web/server.hpp"
+#include "serve/web/shelf.hpp"
+#include "serve/workbench/pack.hpp"
 
 namespace vagus::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr size_t kTokenBytes = 24;
-
-// A folder with one file, whose name nobody can guess, served while this lives.
-class Shelf {
-public:
-    static Result<std::unique_ptr<Shelf>> open(const FleetCall& call, const std::string& bytes) {
-        std::unique_ptr<Shelf> shelf(new Shelf());
-        std::string pattern = (fs::temp_directory_path() / "vagus-rollout-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) {
-            return Error{Code::Unavailable, pattern + ": cannot be made"};
-        }
-        shelf->folder_ = pattern;
-        TRY(write_file(shelf->folder_ / "index.html", "A version of a fleet of Vagus.\n"));
-        TRY(write_file(shelf->folder_ / shelf->token_, bytes));
-        TRY(shelf->serve(call));
-        return shelf;
-    }
-    ~Shelf() {
-        server_.reset();
-        std::error_code failed;
-        if (!folder_.empty()) fs::remove_all(folder_, failed);
-    }
-    const std::string& address() const { return address_; }
-
-private:
-    Shelf() = default;
-
-    Status serve(const FleetCall& call) {
-        serve::WebOptions options{
-            .pages = folder_.string(), .tls_cert = call.certificate, .tls_key = call.key};
-        const size_t colon = call.listen.rfind(':');
-        const std::string port = colon == std::string::npos ? "" : call.listen.substr(colon + 1);
-        const char* const end = port.data() + port.size();
-        const auto read = std::from_chars(port.data(), end, options.port);
-        if (port.empty() || read.ec != std::errc() || read.ptr != end) {
-            return Error{Code::BadInput, "--listen " + call.listen +
-                                             ": expected ADDRESS:PORT, such as 0.0.0.0:8443"};
-        }
-        options.address = call.listen.substr(0, colon);
-        const bool here = options.address.starts_with("127.");
-        if (!here && call.certificate.empty()) {
-            return Error{Code::BadInput,
-                         "--listen " + call.listen +
-                             ": robots fetch from another computer by HTTPS alone; name a "
-                             "certificate that they trust: --serve-cert FILE --serve-key FILE"};
-        }
-        const std::string host = !call.host.empty() ? call.host
-                                 : here             ? "localhost"
-                                                    : serve::host_name();
-        options.hosts = {host};
-        server_ = TRY(serve::WebServer::start(options, [] {}));
-        address_ = fmt::format("{}://{}:{}/{}", call.certificate.empty() ? "http" : "https", host,
-                               server_->port(), token_);
-        return Status::done();
-    }
-
-    fs::path folder_;
-    const std::string token_ = hex_of(serve::random_bytes(kTokenBytes));
-    std::string address_;
-    std::unique_ptr<serve::WebServer> server_;
-};
 
 // Those that are there come first: they say at once whether it is a good version.
 std::vector<std::string> in_order(FleetSession& session, const FleetCall& call) {
@@ -127,15 +59,19 @@ int deploy(FleetSession& session, const FleetCall& call) {
     const std::vector<std::string> robots = in_order(session, call);
     if (robots.empty()) return complain("no robot is there that this is for");
     const auto steps = fleet::read_steps(call.steps, robots.size());
-    if (!steps.ok()) return complain_of(steps.error());
+    if (!steps.ok()) return complain_of({steps.error().code, "--" + steps.error().what});
     fleet::Want want{.number = 1 + serve::random_number(), .back = call.rollback};
-    std::unique_ptr<Shelf> shelf;
+    std::unique_ptr<serve::Shelf> shelf;
     if (!call.rollback) {
         const auto collected = serve::collect_bundle(call.project);
         if (!collected.ok()) return complain_of(collected.error());
         const auto bytes = serve::pack(collected.value());
         if (!bytes.ok()) return complain_of(bytes.error());
-        auto opened = Shelf::open(call, bytes.value());
+        auto opened = serve::Shelf::open({.listen = call.listen,
+                                          .host = call.host,
+                                          .certificate = call.certificate,
+                                          .key = call.key},
+                                         bytes.value());
         if (!opened.ok()) return complain_of(opened.error());
         shelf = std::move(opened.value());
         want.sha256 = serve::sha256_of(bytes.value());

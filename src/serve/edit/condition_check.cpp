@@ -105,8 +105,7 @@ void ConditionCheck::check_word(const FormulaName& name) {
         has = has || take_words(part, name, known);
     }
     if (there && !has) {
-        const std::string element =
-            name.element == 0 ? "" : fmt::format("[{}]", name.element);
+        const std::string element = name.element == 0 ? "" : fmt::format("[{}]", name.element);
         return mistakes_.push_back(fmt::format("{}: the node \"{}\" has no variable \"{}{}\"; {}",
                                                name.shown, name.node, name.variable, element,
                                                known_instead(name.variable, known)));

@@ -50,7 +50,7 @@ void HealthWatch::tick(Time now) {
     }
     is_well_ = true_since_ && now - *true_since_ >= lasts_;
     const std::string lasts = fmt::format("{} s", seconds_of(lasts_));
-    const std::string how = is_well_      ? "was true for " + lasts
+    const std::string how = is_well_     ? "was true for " + lasts
                             : seen.holds ? "is true, but not yet for " + lasts
                                          : "is not true";
     const std::string condition = formula_.ok() ? formula_.value().text() : "";

@@ -18,7 +18,7 @@
 #include "fleet/message.hpp"
 #include "serve/field/deployments.hpp"
 #include "serve/field/health_watch.hpp"
-#include "serve/field/pack.hpp"
+#include "serve/workbench/pack.hpp"
 #include "serve/worker.hpp"
 
 namespace vagus::serve {

@@ -8,9 +8,10 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
 import projects  # noqa: E402
 from harness import GIVE_UP_AFTER, vagus  # noqa: E402
+from page import Studio  # noqa: E402
 
 
-class Rollout(Case):
+class Versions(Case):
     def version(self, script="var edition = 2\n" + SCRIPT, **more):
         """A folder with another version of the project of the robots; `more` is of its key "fleet"."""
         folder = self.folder / "version"
@@ -18,6 +19,8 @@ class Rollout(Case):
         projects.write(folder, "robot.aesl", AESL.format(script=script))
         return folder
 
+
+class Rollout(Versions):
     def words(self, *arguments):
         return ["deploy", *arguments, "--serve-cert", self.broker_folder / "broker.crt", "--serve-key", self.broker_folder / "broker.key"]
 
@@ -94,6 +97,48 @@ class Rollout(Case):
             self.assertIn(what, done.stdout)
         done = self.desk("deploy", "r1", "--project", self.version(), "--listen", "0.0.0.0:0")
         self.assertIn("by HTTPS alone", done.stdout)
+
+
+class FromTheStudio(Versions):
+    """The same as a page of a studio orders it, over HTTPS."""
+
+    def studio(self, version, *arguments):
+        certificate = ("--deploy-cert", self.broker_folder / "broker.crt", "--deploy-key", self.broker_folder / "broker.key")
+        return self.enterContext(Studio(version, "--fleet", self.target, *self.login("operator"), "--deploy-listen", "127.0.0.1:0",
+                                        "--deploy-host", "localhost", *certificate, *arguments))
+
+    def page(self, studio):
+        page = self.enterContext(studio.page())
+        page.do("driver.ask")
+        fleet, rollout = page.watch("fleet"), page.watch("rollout")
+        page.wait(lambda: fleet.value and fleet.value["state"] == "connected", "the broker")
+        return page, fleet, rollout
+
+    def test_a_robot_that_was_away_fetches_it_from_the_studio(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        self.wait_state("r1", "running")
+        first.kill()
+        page, fleet, rollout = self.page(self.studio(self.version()))
+        page.wait(lambda: "r1" in fleet.value["robots"], "the robot that was there")
+        page.do("fleet.deploy", robots=["r1"])
+        page.wait(lambda: rollout.value["robots"].get("r1", {}).get("is") == "wanted", "the wish")
+        self.assertEqual(rollout.value["state"], "running")
+        self.joined("r1")
+        page.wait(lambda: rollout.value["state"] == "well", "the end")
+        self.assertTrue(rollout.value["robots"]["r1"]["has"])
+        self.is_told("r1", "thymio-II.edition", 2)
+
+    def test_who_may_only_look_is_told_why(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        studio = self.enterContext(Studio(self.version(), "--fleet", self.target, *self.login("looker")))
+        page, fleet, rollout = self.page(studio)
+        page.wait(lambda: fleet.value["robots"].get("r1", {}).get("state"), "the robot")
+        page.do("fleet.deploy")
+        page.wait(lambda: rollout.value["state"] == "left", "the refusal")
+        self.assertIn("open the fleet with the login of an operator", rollout.value["why"])
 
 
 class Tell(Case):

@@ -4,7 +4,7 @@
 // who starts the studio again reads how far it came. One thread, told the time.
 //
 //     RolloutDesk rollouts(desk, {.version = [&] { return open_version(); }});
-//     rollouts.begin({.fleet = "lab", .robots = {"r1", "r2"}, .steps = "1,100%"}, done);
+//     rollouts.begin({.fleet = "lab", .robots = {"r1", "r2"}, .steps = "1,100%"}, now, done);
 //     for (const fleet::LinkEvent& event : link.take()) rollouts.hear(event, now);
 //     rollouts.tick(now);
 //     for (const fleet::Post& post : rollouts.take()) link.publish(post);

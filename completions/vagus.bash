@@ -5,7 +5,7 @@
 # What may follow each verb, by its name.
 declare -A _vagus_names=(
     [" "]="studio serve deploy fleet compile exec switch node emulate net conformance sim plan test replay why compare toolbox --version --help"
-    ["studio "]="--example --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --fleet --tls-ca --login --client-cert --client-key --data --config --no-browser --help"
+    ["studio "]="--example --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --fleet --tls-ca --login --client-cert --client-key --deploy-listen --deploy-host --deploy-cert --deploy-key --data --config --no-browser --help"
     ["serve "]="--start --stop-only --target --listen --port --token-file --look-token-file --tls-cert --tls-key --host --pages --fleet --robot --tls-ca --login --client-cert --client-key --data --config --help"
     ["deploy "]="--token-file --tls-cert --rollback --list --help"
     ["fleet "]="init serve keep list watch log forget stop pause continue start identify set raise emit tell deploy --json --wait --tls-ca --login --client-cert --client-key --help"
@@ -88,6 +88,10 @@ declare -A _vagus_takes=(
     ["studio --login"]="file .login "
     ["studio --client-cert"]="file .crt .pem "
     ["studio --client-key"]="file .key .pem "
+    ["studio --deploy-listen"]="any"
+    ["studio --deploy-host"]="any"
+    ["studio --deploy-cert"]="file .crt .pem "
+    ["studio --deploy-key"]="file .key .pem "
     ["studio --data"]="any"
     ["studio --config"]="any"
     ["studio --no-browser"]="none"

@@ -25,7 +25,7 @@ MAY_INCLUDE = {
     "hub": ["wire", "base"],
     "plan": ["base"],
     "aesl": ["isa", "base"],
-    "fleet": ["keeper", "base"],
+    "fleet": ["keeper", "plan", "base"],
     "run": ["plan", "base"],
     "toolbox": ["run", "plan", "keeper", "wire", "base"],
     "embed": ["session"] + BELOW_SESSION,

@@ -168,7 +168,10 @@ constexpr std::array kVersion = {
     kRollout, Field{"sha256", T::Line, kMust, 0, 0, "", "as it was wanted"},
     Field{"result", T::Word, kMust, 0, 0, "taken|started|stopped|refused|rolled_back|waiting",
           "taken: it is being fetched and checked; waiting: it is in force, and does not run"},
-    Field{"why", T::Line, kMay, 0, 0, "", "a sentence"}};
+    Field{"healthy", T::Word, kMay, 0, 0, "not_yet|well",
+          "of started: whether the project's own condition has been true as long as it says; "
+          "without it the project has none"},
+    Field{"why", T::Line, kMay, 0, 0, "", "a sentence; of not_yet: what the condition lacks"}};
 
 constexpr std::array kTellThis = {Field{"node", T::Name, kMust, 0, 0, "", "of the variable"},
                                   Field{"name", T::Line, kMust, 0, 0, "", "of the variable"}};

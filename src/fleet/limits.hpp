@@ -22,6 +22,14 @@ constexpr size_t kProblemsMax = 10;          // in a state
 constexpr size_t kLineBytesMax = 1000;       // of a sentence
 constexpr size_t kNodesMax = 128;            // in a description, in an answer
 
+// ---- a roll-out ----
+constexpr Duration kHealthyFor = 3s;             // without a fault after its start: it is well
+constexpr Duration kHealthyForMax = 30s;         // that a project's own condition must last
+constexpr Duration kConditionEvery = 100ms;      // it is looked at
+constexpr Duration kConditionToldEvery = 1s;     // what it lacks is told, at most
+constexpr size_t kConditionBytesMax = 500;       // of its text
+constexpr size_t kConditionWordsMax = kTellMax;  // variables of nodes in it
+
 // ---- connection ----
 constexpr Duration kBrokerLostAfter = 5s;   // then a robot does what its project says
 constexpr Duration kNameAnswerWithin = 3s;  // who has a name answers within this

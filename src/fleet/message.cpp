@@ -177,7 +177,7 @@ Message read_message(const JsonValue& json, const Topic& topic, std::string_view
                         truth(json, "back")};
         case Kind::Version:
             return Version{whole(json, "number"), text(json, "sha256"), text(json, "result"),
-                           text(json, "why")};
+                           text(json, "why"), text(json, "healthy")};
         case Kind::Beat:
             return keeper::Beat{count(json, "epoch"), text(json, "instance"),
                                 count(json, "number")};
@@ -399,6 +399,7 @@ Members members_of(const Want& said) {
 Members members_of(const Version& said) {
     Members members = {member("number", said.number), member("sha256", said.sha256),
                        member("result", said.result)};
+    add(members, "healthy", said.healthy);
     add(members, "why", said.why);
     return members;
 }

@@ -94,6 +94,7 @@ struct Want {
 struct Version {
     int64_t number = 0;
     std::string sha256 = {}, result = {}, why = {};
+    std::string healthy = {};
     friend bool operator==(const Version&, const Version&) = default;
 };
 

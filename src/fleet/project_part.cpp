@@ -2,13 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
+#include "base/seconds.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
+#include "plan/word_formula.hpp"
 
 namespace vagus::fleet {
 namespace {
+
+// Empty: it asks for no more words of nodes than a robot reads.
+std::string too_many_words(const plan::WordFormula& formula) {
+    using Of = plan::WordFormula::Name::Of;
+    const auto words = std::ranges::count(formula.names(), Of::Word, &plan::WordFormula::Name::of);
+    if (static_cast<size_t>(words) <= kConditionWordsMax) return "";
+    return fmt::format("expected at most {} words of nodes, found {}; remove some",
+                       kConditionWordsMax, words);
+}
 
 class Reader {
 public:
@@ -24,6 +36,7 @@ private:
     std::vector<Hears> hear();
     std::optional<Hears> hear(const JsonValue& json);
     std::vector<Tells> tell();
+    std::optional<Healthy> healthy();
 
     JsonObject& in_;
     std::set<std::pair<std::string_view, std::string>> seen_;
@@ -118,6 +131,32 @@ std::vector<Tells> Reader::tell() {
     return list;
 }
 
+// Its names are checked where plans and nodes are known (serve/edit/condition_check.hpp).
+std::optional<Healthy> Reader::healthy() {
+    const JsonValue* json = in_.find("healthy", JsonKind::Object, Need::Optional);
+    if (json == nullptr) return std::nullopt;
+    Complaints complaints;
+    JsonObject healthy(*json, "\"healthy\"", complaints);
+    const std::string condition = healthy.text("condition", Need::Required);
+    const double seconds = healthy.number(
+        "for", {.low = 0, .high = seconds_of(kHealthyForMax), .fallback = seconds_of(kHealthyFor)});
+    const JsonValue* const text = healthy.find("condition", Need::Required);
+    healthy.finish();
+    if (complaints.empty() && condition.size() > kConditionBytesMax) {
+        healthy.complain(text->at, fmt::format("\"condition\" of \"healthy\": expected at most {} "
+                                               "bytes, found {}; write a shorter one",
+                                               kConditionBytesMax, condition.size()));
+    } else if (complaints.empty()) {
+        const auto formula = plan::WordFormula::parse(condition);
+        const std::string wrong =
+            formula.ok() ? too_many_words(formula.value()) : formula.error().what;
+        if (!wrong.empty()) healthy.complain(text->at, "\"condition\" of \"healthy\": " + wrong);
+    }
+    for (const Complaint& complaint : complaints) in_.complain(complaint.at, complaint.what);
+    if (!complaints.empty()) return std::nullopt;
+    return Healthy{condition, from_seconds(seconds)};
+}
+
 ProjectPart Reader::part() {
     ProjectPart part;
     part.name = in_.text("name", Need::Optional);
@@ -131,6 +170,7 @@ ProjectPart Reader::part() {
     const bool goes_on =
         in_.word("broker_lost", {"stop", "continue"}, Need::Optional, "stop") == "continue";
     part.broker_lost = goes_on ? BrokerLost::Continue : BrokerLost::Stop;
+    part.healthy = healthy();
     in_.finish();
     return part;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/json_object.hpp"
+#include "fleet/limits.hpp"
 
 namespace vagus::fleet {
 
@@ -20,7 +21,13 @@ struct Hears {
 // A variable of a node that everybody may see.
 struct Tells {
     std::string node = {}, name = {};
-    friend bool operator==(const Tells&, const Tells&) = default;
+    friend auto operator<=>(const Tells&, const Tells&) = default;
+};
+// The project's own condition of being well after a roll-out, and how long it must be true.
+struct Healthy {
+    std::string condition = {};  // a plan::WordFormula: it was read once, without a mistake
+    Duration lasts = kHealthyFor;
+    friend bool operator==(const Healthy&, const Healthy&) = default;
 };
 // What a robot does when it has not been in the fleet for kBrokerLostAfter.
 enum class BrokerLost { Stop, Continue };
@@ -31,6 +38,7 @@ struct ProjectPart {
     std::vector<Hears> hear = {};
     std::vector<Tells> tell = {};
     BrokerLost broker_lost = BrokerLost::Stop;
+    std::optional<Healthy> healthy = {};
     friend bool operator==(const ProjectPart&, const ProjectPart&) = default;
 };
 

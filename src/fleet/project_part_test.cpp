@@ -44,6 +44,44 @@ TEST(ProjectPart, HasWhatTheFileSays) {
     EXPECT_EQ(read(R"({"fleet": {}})").part.broker_lost, BrokerLost::Stop);
 }
 
+TEST(ProjectPart, ItsConditionOfBeingWellIsAFormula) {
+    const Read all =
+        read(R"x({"fleet": {"healthy": {"condition": "a > node('d', 'b')", "for": 5}}})x");
+    EXPECT_TRUE(all.complaints.empty());
+    EXPECT_EQ(all.part.healthy, (Healthy{"a > node('d', 'b')", 5s}));
+    EXPECT_EQ(read(R"({"fleet": {"healthy": {"condition": "a"}}})").part.healthy,
+              (Healthy{"a", 3s}));
+    EXPECT_EQ(read(R"({"fleet": {}})").part.healthy, std::nullopt);
+}
+
+std::string complaint_of(const std::string& healthy) {
+    const Read all = read(R"({"fleet": {"healthy": )" + healthy + "}}");
+    return all.complaints.empty() ? "" : first_complaint(all.complaints, "f").what;
+}
+
+TEST(ProjectPart, WhatIsWrongWithTheConditionHasItsPlace) {
+    EXPECT_EQ(complaint_of(R"({"condition": "a", "for": 30})"), "");
+    EXPECT_EQ(complaint_of(R"({"condition": "a", "for": 30.5})"),
+              "f:1:49: \"for\" of \"healthy\" is 30.5; write a number from 0 to 30");
+    EXPECT_EQ(complaint_of(R"({"condition": "a >"})").substr(0, 40),
+              "f:1:37: \"condition\" of \"healthy\": expect");
+    EXPECT_EQ(complaint_of(R"({"condition": "node(a, b) > 1"})"),
+              "f:1:37: \"condition\" of \"healthy\": expected two texts, as node(\"drive\", "
+              "\"token\"), behind node");
+    EXPECT_NE(complaint_of("{}"), "");
+    EXPECT_NE(complaint_of("3"), "");
+    EXPECT_NE(complaint_of(R"({"condition": "a", "four": 3})").find("did you mean"),
+              std::string::npos);
+    const auto long_one = [](size_t bytes) {
+        return R"({"condition": ")" + std::string(bytes, 'a') + "\"}";
+    };
+    EXPECT_EQ(complaint_of(long_one(kConditionBytesMax)), "");
+    EXPECT_EQ(
+        complaint_of(long_one(kConditionBytesMax + 1)),
+        "f:1:37: \"condition\" of \"healthy\": expected at most 500 bytes, found 501; write a "
+        "shorter one");
+}
+
 TEST(ProjectPart, WhatIsWrongHasItsPlace) {
     const auto first = [](const std::string& text) {
         const Read all = read(text);

@@ -31,7 +31,7 @@ Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots) {
         const auto step = read_step(one, robots);
         if (!step) {
             return Error{Code::BadInput,
-                         fmt::format("--steps {}: expected numbers of robots or percent, such as "
+                         fmt::format("steps {}: expected numbers of robots or percent, such as "
                                      "1,10%,100%, found \"{}\"",
                                      text, one)};
         }
@@ -47,6 +47,12 @@ Rollout::Rollout(Options options) : options_(std::move(options)) {
 
 void Rollout::hear(const LinkEvent& event, Time now) {
     now_ = now;
+    // What was said while there was no connection did not arrive.
+    if (std::holds_alternative<Connected>(event)) {
+        for (const auto& [name, robot] : robots_) {
+            if (robot.place == Place::Wanted || robot.silent) want_of(name);
+        }
+    }
     const auto* received = std::get_if<Received>(&event);
     if (received == nullptr) return;
     const auto found = robots_.find(received->heard.topic.robot);
@@ -58,11 +64,18 @@ void Rollout::hear(const LinkEvent& event, Time now) {
 
 // A robot that was told twice tells once more what came of it.
 void Rollout::hear_version(Robot& robot, const Version& version) {
-    if (version.number != options_.want.number || robot.place != Place::Wanted) return;
-    if (version.result == "taken") return;
-    if (version.result != "started") return fail(robot, version.result + ": " + version.why);
-    robot.place = Place::Started;
-    robot.until = now_ + kHealthyFor;
+    if (version.number != options_.want.number || version.result == "taken") return;
+    if (robot.place == Place::Wanted || robot.silent) {
+        robot.silent = false;
+        robot.has = version.result != "refused" && version.result != "rolled_back";
+        if (version.result != "started") return fail(robot, version.result + ": " + version.why);
+        robot.place = Place::Started;
+        robot.begun = now_;
+        robot.until = now_ + kHealthyFor;
+    }
+    if (robot.place != Place::Started) return;
+    robot.lacks = version.healthy == "not_yet";
+    robot.why = robot.lacks ? version.why : "";
 }
 
 void Rollout::hear_state(Robot& robot, const State& state) {
@@ -76,43 +89,63 @@ void Rollout::fail(Robot& robot, std::string why) {
     robot.why = std::move(why);
 }
 
+// Whether its time is over.
+void Rollout::pass(Robot& robot) {
+    if (now_ < next_of(robot)) return;
+    if (robot.place == Place::Wanted) {
+        robot.silent = true;
+        return fail(robot, "did not answer; it finds it when it is back");
+    }
+    if (robot.place != Place::Started) return;
+    if (!robot.lacks) {
+        robot.place = Place::Well;
+        return;
+    }
+    fail(robot, fmt::format("not well within {} s of its start: {}", seconds_of(options_.within),
+                            robot.why));
+}
+
+Time Rollout::next_of(const Robot& robot) const {
+    if (robot.place == Place::Started && robot.lacks) return robot.begun + options_.within;
+    const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
+    return waits ? robot.until : Time::max();
+}
+
 void Rollout::tick(Time now) {
     now_ = now;
-    for (auto& [name, robot] : robots_) {
-        if (now_ < robot.until) continue;
-        if (robot.place == Place::Started) robot.place = Place::Well;
-        if (robot.place == Place::Wanted)
-            fail(robot, "did not answer; it finds it when it is back");
-    }
+    for (auto& [name, robot] : robots_) pass(robot);
     const bool all_well = std::all_of(
         options_.robots.begin(), options_.robots.begin() + static_cast<std::ptrdiff_t>(wanted_),
         [this](const auto& name) { return robots_.at(name).place == Place::Well; });
-    if (all_well && step_ < options_.steps.size()) begin_step();
+    ended_ = ended_ || is_over();
+    if (all_well && !ended_ && step_ < options_.steps.size()) begin_step();
 }
 
 void Rollout::begin_step() {
     const size_t end = options_.steps[step_++];
     for (; wanted_ < end; ++wanted_) {
         const std::string& name = options_.robots[wanted_];
-        robots_.at(name) = {Place::Wanted, now_ + options_.within, {}};
-        posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = name}),
-                          .payload = payload_of(options_.want),
-                          .qos = info_of(Kind::Want).qos,
-                          .retained = info_of(Kind::Want).retained});
+        robots_.at(name) = {.place = Place::Wanted, .until = now_ + options_.within};
+        want_of(name);
     }
+}
+
+void Rollout::want_of(const std::string& robot) {
+    posts_.push_back({.topic = text_of(options_.fleet, {.kind = Kind::Want, .robot = robot}),
+                      .payload = payload_of(options_.want),
+                      .qos = info_of(Kind::Want).qos,
+                      .retained = info_of(Kind::Want).retained});
 }
 
 Time Rollout::next_tick() const {
     Time next = Time::max();
-    for (const auto& [name, robot] : robots_) {
-        const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
-        if (waits) next = std::min(next, robot.until);
-    }
+    for (const auto& [name, robot] : robots_) next = std::min(next, next_of(robot));
     return next;
 }
 
 // Of a step that failed the others come to their end, too.
 bool Rollout::is_over() const {
+    if (ended_) return true;
     bool failed = false, waits = false;
     for (const auto& [name, robot] : robots_) {
         failed = failed || robot.place == Place::Failed;
@@ -126,29 +159,34 @@ bool Rollout::all_are_well() const {
                        [](const auto& one) { return one.second.place == Place::Well; });
 }
 
-std::vector<std::pair<std::string, std::string>> Rollout::table() const {
-    std::vector<std::pair<std::string, std::string>> lines;
+std::vector<Rollout::Line> Rollout::table() const {
+    std::vector<Line> lines;
     for (const std::string& name : options_.robots) {
         const Robot& robot = robots_.at(name);
-        switch (robot.place) {
-            case Place::Later:
-                lines.emplace_back(name, "as it was");
-                break;
-            case Place::Wanted:
-                lines.emplace_back(name, "on its way");
-                break;
-            case Place::Started:
-                lines.emplace_back(name, "started");
-                break;
-            case Place::Well:
-                lines.emplace_back(name, "well");
-                break;
-            case Place::Failed:
-                lines.emplace_back(name, robot.why);
-                break;
-        }
+        lines.push_back({name, robot.place, robot.why, robot.has});
     }
     return lines;
+}
+
+const char* word_of(Rollout::Place place) {
+    switch (place) {
+        case Rollout::Place::Later:
+            return "as it was";
+        case Rollout::Place::Wanted:
+            return "wanted";
+        case Rollout::Place::Started:
+            return "started";
+        case Rollout::Place::Well:
+            return "well";
+        case Rollout::Place::Failed:
+            return "failed";
+    }
+    return "as it was";
+}
+
+std::string text_of(const Rollout::Line& line) {
+    if (line.why.empty()) return word_of(line.place);
+    return fmt::format("{}: {}", word_of(line.place), line.why);
 }
 
 }  // namespace vagus::fleet

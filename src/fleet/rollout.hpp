@@ -5,7 +5,7 @@
 //     for (const LinkEvent& event : link.take()) rollout.hear(event, now);
 //     rollout.tick(now);
 //     for (const Post& post : rollout.take()) link.publish(post);
-//     if (rollout.is_over()) for (const auto& [robot, line] : rollout.table()) show(robot, line);
+//     for (const Rollout::Line& line : rollout.table()) show(line.robot, text_of(line));
 #pragma once
 
 #include <map>
@@ -20,8 +20,6 @@
 
 namespace vagus::fleet {
 
-constexpr Duration kHealthyFor = 3s;  // without a fault, after its start
-
 // "1,10%,100%": how many of so many robots have it after each step. The last step is all.
 Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots);
 
@@ -34,7 +32,8 @@ public:
         Want want = {};
         std::vector<std::string> robots = {};  // in this order
         std::vector<size_t> steps = {};        // how many of them; the last is all
-        Duration within = 60s;                 // of a robot, from the want to its start
+        // Of a robot: from the want to its start, and from there until its condition was true.
+        Duration within = 60s;
     };
     explicit Rollout(Options options);
 
@@ -44,29 +43,53 @@ public:
     Time next_tick() const;
     std::vector<Post> take() { return std::exchange(posts_, {}); }
 
-    // All are well, or one is not: then nobody else gets it.
+    // Nobody else gets it from now on; it is still heard what becomes of those that do.
+    void stop() { ended_ = true; }
+    // All are well, or one is not: then nobody else gets it. A robot that did not answer may still
+    // find it, and its line says so.
     bool is_over() const;
     bool all_are_well() const;
-    // What became of each robot: "well", "did not answer", "refused: it has mistakes".
-    std::vector<std::pair<std::string, std::string>> table() const;
+    // What became of each robot, in their order; `why` of Failed, and of Started what its project's
+    // condition lacks.
+    struct Line {
+        std::string robot;
+        Place place = Place::Later;
+        std::string why = {};
+        bool has = false;  // the version is in force there
+        friend bool operator==(const Line&, const Line&) = default;
+    };
+    std::vector<Line> table() const;
+    const Want& want() const { return options_.want; }
 
 private:
     struct Robot {
         Place place = Place::Later;
-        Time until{};  // Wanted: it has started; Started: it is well
+        Time until{};        // Wanted: it has started; Started: it is well
+        Time begun{};        // Started: since when
+        bool lacks = false;  // Started: its project's condition was not true for long enough yet
         std::string why = {};
+        bool silent = false;  // Failed: it did not answer
+        bool has = false;
     };
     void hear_version(Robot& robot, const Version& version);
     void hear_state(Robot& robot, const State& state);
+    void pass(Robot& robot);
+    Time next_of(const Robot& robot) const;
     void fail(Robot& robot, std::string why);
     void begin_step();
+    void want_of(const std::string& robot);
 
     const Options options_;
     std::map<std::string, Robot> robots_;
+    bool ended_ = false;
     size_t step_ = 0;    // the next one
     size_t wanted_ = 0;  // so many robots, of the first
     std::vector<Post> posts_;
     Time now_{};
 };
+
+// "as it was", "wanted", "started", "well", "failed: refused: it has mistakes".
+const char* word_of(Rollout::Place place);
+std::string text_of(const Rollout::Line& line);
 
 }  // namespace vagus::fleet

@@ -41,12 +41,17 @@ public:
         rollout.hear(Received{{topic, Version{number, "ab", result, "why"}}, false}, now);
         pass(0s);
     }
+    void lacks(const std::string& robot, const std::string& healthy, const std::string& why = "") {
+        const Topic topic{.kind = Kind::Version, .robot = robot};
+        rollout.hear(Received{{topic, Version{7, "ab", "started", why, healthy}}, false}, now);
+        pass(0s);
+    }
     void is(const std::string& robot, const std::string& state) {
         const Topic topic{.kind = Kind::State, .robot = robot};
         rollout.hear(Received{{topic, State{.state = state, .problems = {"stuck"}}}, false}, now);
         pass(0s);
     }
-    std::string line(size_t robot) { return rollout.table()[robot].second; }
+    std::string line(size_t robot) { return text_of(rollout.table()[robot]); }
 
     Rollout rollout;
     Time now{};
@@ -74,7 +79,7 @@ TEST(Rollout, TheFirstThatIsNotWellStopsIt) {
         Case c;
         c.tells("r1", result);
         EXPECT_TRUE(c.rollout.is_over());
-        EXPECT_EQ(c.line(0), std::string(result) + ": why");
+        EXPECT_EQ(c.line(0), "failed: " + std::string(result) + ": why");
         EXPECT_EQ(c.line(1), "as it was");
         EXPECT_EQ(c.wanted(), Texts{"r1"});
     }
@@ -87,7 +92,7 @@ TEST(Rollout, AFaultWithinThreeSecondsIsNotWell) {
     c.is("r1", "fault");
     c.pass(kHealthyFor);
     EXPECT_TRUE(c.rollout.is_over());
-    EXPECT_EQ(c.line(0), "a fault: stuck");
+    EXPECT_EQ(c.line(0), "failed: a fault: stuck");
 }
 
 TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
@@ -96,14 +101,92 @@ TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
     EXPECT_FALSE(c.rollout.is_over());
     c.pass(1us);
     EXPECT_TRUE(c.rollout.is_over());
-    EXPECT_EQ(c.line(0), "did not answer; it finds it when it is back");
+    EXPECT_EQ(c.line(0), "failed: did not answer; it finds it when it is back");
+}
+
+TEST(Rollout, WhoIsBackLaterIsWellAndTheRolloutStaysOver) {
+    Case c;
+    c.pass(60s);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.rollout.hear(Connected{}, c.now);
+    EXPECT_EQ(c.wanted(), Texts{"r1"}) << "the link was lost: it may not have arrived";
+    c.tells("r1", "started");
+    EXPECT_TRUE(c.rollout.table()[0].has);
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{}) << "nobody else gets it";
+}
+
+TEST(Rollout, OneThatIsStoppedGoesToNobodyElse) {
+    Case c;
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.rollout.stop();
+    c.tells("r1", "started");
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.wanted(), Texts{});
+}
+
+TEST(Rollout, WhoRefusedItDoesNotHaveIt) {
+    for (const auto& [result, has] : {std::pair("refused", false), std::pair("rolled_back", false),
+                                      std::pair("waiting", true), std::pair("stopped", true)}) {
+        Case c;
+        c.tells("r1", result);
+        EXPECT_EQ(c.rollout.table()[0].has, has) << result;
+    }
+}
+
+TEST(Rollout, ARobotWhoseConditionIsNotTrueYetIsWaitedFor) {
+    Case c;
+    c.pass(20s);
+    c.lacks("r1", "not_yet", "battery = 12");
+    EXPECT_EQ(c.line(0), "started: battery = 12");
+    c.pass(60s - 1us);  // of its start
+    EXPECT_EQ(c.wanted(), Texts{"r1"});
+    c.lacks("r1", "well");
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_EQ(c.wanted(), (Texts{"r2", "r3"}));
+}
+
+TEST(Rollout, AConditionThatIsTrueAtOnceDoesNotShortenTheThreeSeconds) {
+    Case c;
+    c.lacks("r1", "not_yet", "not looked at");
+    c.lacks("r1", "well");
+    c.pass(kHealthyFor - 1us);
+    EXPECT_EQ(c.line(0), "started");
+    c.pass(1us);
+    EXPECT_EQ(c.line(0), "well");
+}
+
+TEST(Rollout, ARobotWhoseConditionIsNotTrueInTimeStopsIt) {
+    Case c;
+    c.lacks("r1", "not_yet", "battery = 12");
+    c.lacks("r1", "not_yet", "battery = 13");
+    EXPECT_EQ(c.rollout.next_tick(), 60s);
+    c.pass(60s - 1us);
+    EXPECT_FALSE(c.rollout.is_over());
+    c.pass(1us);
+    EXPECT_TRUE(c.rollout.is_over());
+    EXPECT_EQ(c.line(0), "failed: not well within 60 s of its start: battery = 13");
+    c.lacks("r1", "well");
+    EXPECT_EQ(c.rollout.table()[0].place, Rollout::Place::Failed) << "too late";
+}
+
+TEST(Rollout, AFaultCountsWhateverTheConditionSays) {
+    Case c;
+    c.lacks("r1", "not_yet", "battery = 12");
+    c.is("r1", "fault");
+    EXPECT_EQ(c.line(0), "failed: a fault: stuck");
 }
 
 TEST(Rollout, WhatCameOfAnotherOneSaysNothing) {
     Case c;
     c.tells("r1", "started", 6);
     c.pass(kHealthyFor);
-    EXPECT_EQ(c.line(0), "on its way");
+    EXPECT_EQ(c.line(0), "wanted");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ bool same_inputs(const std::vector<Entry>& a, const std::vector<Entry>& b) {
     return a.size() == b.size() && std::all_of(a.begin(), a.end(), in_b);
 }
 
-std::string constant_text(const Value& value) {
+std::string start_value_text(const Value& value) {
     if (value.type() == Type::Object) return "object";
     return fmt::format("{} {}", name_of(value.type()), text_of(value).value());
 }
@@ -101,7 +101,7 @@ int Walk::look_of(const GraphSupervisor& supervisor) {
     std::string text = fmt::format("{}", static_cast<const void*>(supervisor.of));
     for (const GraphInput& input : supervisor.inputs) {
         if (input.formula) return -1;
-        text += "\n" + constant_text(input.value);
+        text += "\n" + start_value_text(input.value);
     }
     return looks_.emplace(text, static_cast<int>(looks_.size())).first->second;
 }

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "plan/formula.hpp"
 #include "plan/graph.hpp"
+#include "plan/word_formula.hpp"
 #include "trial/signals.hpp"
 
 namespace vagus::trial {
@@ -39,19 +39,17 @@ public:
     // names what is unknown, and the nearest that is not.
     Status bind(const plan::Graph& graph, bool has_world);
 
-    const std::string& text() const { return text_; }
+    const std::string& text() const { return formula_.text(); }
     const std::vector<Name>& names() const { return names_; }
     bool uses(SignalId signal) const;
     // With the values of names(), in that order.
-    Result<bool> holds(std::span<const plan::Value> values) const;
+    Result<bool> holds(std::span<const plan::Value> values) const { return formula_.holds(values); }
 
 private:
-    explicit Condition(std::string text, plan::Formula formula)
-        : text_(std::move(text)), formula_(std::move(formula)) {}
+    explicit Condition(plan::WordFormula formula) : formula_(std::move(formula)) {}
     Status check_texts(const plan::Graph& graph) const;
 
-    std::string text_;
-    plan::Formula formula_;
+    plan::WordFormula formula_;
     std::vector<Name> names_;
 };
 

@@ -8,16 +8,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
 import projects  # noqa: E402
 from harness import GIVE_UP_AFTER, vagus  # noqa: E402
+from page import Studio  # noqa: E402
 
 
-class Rollout(Case):
-    def version(self, script="var edition = 2\n" + SCRIPT):
-        """A folder with another version of the project of the robots."""
+class Versions(Case):
+    def version(self, script="var edition = 2\n" + SCRIPT, **more):
+        """A folder with another version of the project of the robots; `more` is of its key "fleet"."""
         folder = self.folder / "version"
-        projects.thymio(folder, script="", fleet=PART)
+        projects.thymio(folder, script="", fleet={**PART, **more})
         projects.write(folder, "robot.aesl", AESL.format(script=script))
         return folder
 
+
+class Rollout(Versions):
     def words(self, *arguments):
         return ["deploy", *arguments, "--serve-cert", self.broker_folder / "broker.crt", "--serve-key", self.broker_folder / "broker.key"]
 
@@ -38,7 +41,7 @@ class Rollout(Case):
         self.two_robots()
         done = self.deploy("all", "--project", self.version())
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertRegex(done.stdout, r"(?s)r1: on its way.*r1: well.*r2: on its way.*r2: well.*2 of 2 robots: well")
+        self.assertRegex(done.stdout, r"(?s)r1: wanted.*r1: well.*r2: wanted.*r2: well.*2 of 2 robots: well")
         self.is_told("r2", "thymio-II.edition", 2)
         done = self.desk("deploy", "all", "--rollback")
         self.assertEqual(done.returncode, 0, done.stdout)
@@ -49,9 +52,28 @@ class Rollout(Case):
         self.two_robots()
         done = self.deploy("all", "--project", self.version(script="onevent nobody.knows.this\n\tx = 1\n"))
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stdout, r"r1: refused: it has mistakes; nothing was changed; robot\.aesl#1:\d+: ")
+        self.assertRegex(done.stdout, r"r1: failed: refused: it has mistakes; nothing was changed; robot\.aesl#1:\d+: ")
         self.assertRegex(done.stdout, r"(?s)r2: as it was.*0 of 2 robots: well")
         self.assertEqual(self.state("r1"), "running")
+
+    def test_a_robot_is_well_when_its_own_condition_was_true(self):
+        self.two_robots()
+        condition = "node('thymio-II', 'edition') == {}"
+        done = self.deploy("all", "--project", self.version(healthy={"condition": condition.format(2), "for": 1}))
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("2 of 2 robots: well", done.stdout)
+        done = self.deploy("all", "--project", self.version(healthy={"condition": condition.format(3), "for": 1}), wait=6)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("r1: failed: not well within 6 s of its start: its condition node('thymio-II', 'edition') == 3 is not true: "
+                      "node('thymio-II', 'edition') = 2", done.stdout)
+        self.assertRegex(done.stdout, r"(?s)r2: as it was.*0 of 2 robots: well")
+
+    def test_a_condition_with_a_name_that_is_none_is_refused(self):
+        self.two_robots()
+        version = self.version(healthy={"condition": "node('thymio-II', 'editon') == 2"})
+        done = self.deploy("all", "--project", version)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r'r1: failed: refused: .*vagus\.json:\d+: "condition" of "healthy": .*did you mean edition\?')
 
     def test_a_robot_that_was_away_finds_it_when_it_is_back(self):
         self.broker("r1")
@@ -60,7 +82,7 @@ class Rollout(Case):
         first.kill()
         with vagus("fleet", self.target, *self.words("r1", "--project", self.version()), *self.login("operator"), "--wait",
                    GIVE_UP_AFTER) as program:
-            program.wait_line(r"^r1: on its way$")
+            program.wait_line(r"^r1: wanted$")
             self.joined("r1")
             program.wait_line(r"^r1: well$")
             self.assertEqual(program.wait_end(), 0)
@@ -75,6 +97,48 @@ class Rollout(Case):
             self.assertIn(what, done.stdout)
         done = self.desk("deploy", "r1", "--project", self.version(), "--listen", "0.0.0.0:0")
         self.assertIn("by HTTPS alone", done.stdout)
+
+
+class FromTheStudio(Versions):
+    """The same as a page of a studio orders it, over HTTPS."""
+
+    def studio(self, version, *arguments):
+        certificate = ("--deploy-cert", self.broker_folder / "broker.crt", "--deploy-key", self.broker_folder / "broker.key")
+        return self.enterContext(Studio(version, "--fleet", self.target, *self.login("operator"), "--deploy-listen", "127.0.0.1:0",
+                                        "--deploy-host", "localhost", *certificate, *arguments))
+
+    def page(self, studio):
+        page = self.enterContext(studio.page())
+        page.do("driver.ask")
+        fleet, rollout = page.watch("fleet"), page.watch("rollout")
+        page.wait(lambda: fleet.value and fleet.value["state"] == "connected", "the broker")
+        return page, fleet, rollout
+
+    def test_a_robot_that_was_away_fetches_it_from_the_studio(self):
+        self.broker("r1")
+        first = self.joined("r1")
+        self.wait_state("r1", "running")
+        first.kill()
+        page, fleet, rollout = self.page(self.studio(self.version()))
+        page.wait(lambda: "r1" in fleet.value["robots"], "the robot that was there")
+        page.do("fleet.deploy", robots=["r1"])
+        page.wait(lambda: rollout.value["robots"].get("r1", {}).get("is") == "wanted", "the wish")
+        self.assertEqual(rollout.value["state"], "running")
+        self.joined("r1")
+        page.wait(lambda: rollout.value["state"] == "well", "the end")
+        self.assertTrue(rollout.value["robots"]["r1"]["has"])
+        self.is_told("r1", "thymio-II.edition", 2)
+
+    def test_who_may_only_look_is_told_why(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        studio = self.enterContext(Studio(self.version(), "--fleet", self.target, *self.login("looker")))
+        page, fleet, rollout = self.page(studio)
+        page.wait(lambda: fleet.value["robots"].get("r1", {}).get("state"), "the robot")
+        page.do("fleet.deploy")
+        page.wait(lambda: rollout.value["state"] == "left", "the refusal")
+        self.assertIn("open the fleet with the login of an operator", rollout.value["why"])
 
 
 class Tell(Case):

@@ -8,6 +8,8 @@ import type { Studio } from './studio';
 import { whyOf } from './why';
 
 export const kFleetEventsKept = 5000;
+/** Of a roll-out: how many robots have the version after each step. */
+export const kStepsUnlessTold = '1,10%,100%';
 
 export type Verb = Commands['fleet.order']['in']['verb'] | 'stop';
 /** Of set and emit: what, with which values. */
@@ -39,6 +41,11 @@ export class FleetDesk {
   report: Report | null = null;
   events: readonly FleetEvent[] = [];
   leftOut = 0;
+  /** Why the last version was not deployed, or its roll-out not stopped or taken back; empty: it was. */
+  deployWhy = '';
+  rolloutWhy = '';
+  /** The roll-out that this page need not show any more, by when it began. */
+  dismissed: number | null = null;
 
   private target = '';
 
@@ -100,6 +107,32 @@ export class FleetDesk {
     }
   }
 
+  /** The project that is open for these robots, or for all of the fleet. Whether it was taken. */
+  async deploy(robots: readonly string[], steps: string): Promise<boolean> {
+    const chosen = robots.length === 0 ? {} : { robots: [...robots] };
+    this.deployWhy = await whyNot(
+      this.studio.send('fleet.deploy', { ...chosen, steps: steps.trim() }),
+    );
+    this.dismissed = null;
+    this.changed.emit();
+    return this.deployWhy === '';
+  }
+
+  async stopRollout(): Promise<void> {
+    this.rolloutWhy = await whyNot(this.studio.send('fleet.rollout_stop', {}));
+    this.changed.emit();
+  }
+
+  async rollBack(): Promise<void> {
+    this.rolloutWhy = await whyNot(this.studio.send('fleet.rollback', {}));
+    this.changed.emit();
+  }
+
+  dismiss(begun: number): void {
+    this.dismissed = begun;
+    this.changed.emit();
+  }
+
   private send(verb: Verb, robots: readonly string[] | null, words: OrderWords) {
     if (robots === null) return [this.studio.send('fleet.stop', {})];
     return inBatches(robots).map((batch) =>
@@ -107,6 +140,15 @@ export class FleetDesk {
         ? this.studio.send('fleet.stop', { robots: batch })
         : this.studio.send('fleet.order', { ...words, verb, robots: batch }),
     );
+  }
+}
+
+async function whyNot(sent: Promise<unknown>): Promise<string> {
+  try {
+    await sent;
+    return '';
+  } catch (problem) {
+    return whyOf(problem);
   }
 }
 

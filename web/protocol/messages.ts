@@ -1085,6 +1085,18 @@ export interface FleetOutcome {
   what: string;
 }
 
+/** What became of a robot in a roll-out. */
+export interface RolloutRobot {
+  /** its place in the order */
+  at: number;
+  /** later: it is as it was */
+  is: 'later' | 'wanted' | 'started' | 'well' | 'failed';
+  /** of failed; of started what the project's own condition lacks */
+  why: string;
+  /** the version is in force there */
+  has: boolean;
+}
+
 /** Something that happened in a fleet. */
 export interface FleetEvent {
   /** counts up */
@@ -1564,6 +1576,17 @@ export interface Commands {
   }; out: {
     outcomes: FleetOutcome[];
   } };
+  /** The project that is open, as it is saved, for robots of the fleet, in steps. It is answered when the first is told; what becomes of each is the topic rollout. */
+  'fleet.deploy': { in: {
+    /** without it all */
+    robots?: string[];
+    /** how many have it after each step, as 1,10%,100% */
+    steps?: string;
+  }; out: Record<never, never> };
+  /** Robots that have the version of the last roll-out get the one before, all at once. */
+  'fleet.rollback': { in: Record<never, never>; out: Record<never, never> };
+  /** No other robot gets the version; robots that have it keep it. */
+  'fleet.rollout_stop': { in: Record<never, never>; out: Record<never, never> };
   /** Stops robots of the fleet, asking again until each has answered, for 10 s. */
   'fleet.stop': { in: {
     /** without it all */
@@ -2125,6 +2148,27 @@ export interface Topics {
     why?: string;
     robots: Record<string, FleetRobot>;
   } };
+  /** The last roll-out that a page of this studio gave to a fleet, also of a studio before this one. */
+  'rollout': { kind: 'document'; of: Record<never, never>; is: {
+    /** left: it was stopped, or its studio ended */
+    state: 'none' | 'running' | 'well' | 'failed' | 'left';
+    /** of the fleet */
+    target: string;
+    /** the one that is open, which would be sent; missing: none */
+    project?: string;
+    /** the project that was sent */
+    version: string;
+    /** the version before is put in force */
+    back: boolean;
+    /** who gave it */
+    by: string;
+    /** why it was left */
+    why: string;
+    begun_wall: number;
+    /** a robot that comes back can fetch it here */
+    served: boolean;
+    robots: Record<string, RolloutRobot>;
+  } };
   /** Events that robots of the fleet sent, who came and went, what pages of this studio told them, from the last ones kept. */
   'fleet_events': { kind: 'stream'; of: {
     last?: number;
@@ -2400,6 +2444,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Deployed: { version: 'int(0..4294967295)', name: 'line(200)', when_wall: 'number?', current: 'bool' },
   FleetRobot: { connection: 'word(online|offline|lost|unknown)', age: 'word(fresh|waiting|stale)', state: 'word(running|paused|stopped|fault)?', actor: 'line(1000)?', since_wall: 'number?', told_wall: 'number?', problems: '[line(1000); 10]?', left_out: 'number?', project: 'line(1000)?', vagus: 'line(1000)?', plan: 'line(1000)?', groups: '[line(64); 32]?', nodes: '[line(64); 128]?', hear: '[line(64); 256]?', studio: 'line(1000)?' },
   FleetOutcome: { robot: 'line(64)', result: 'word(done|refused|silent|away)', what: 'text(10000)' },
+  RolloutRobot: { at: 'int(0..9999)', is: 'word(later|wanted|started|well|failed)', why: 'text(2000)', has: 'bool' },
   FleetEvent: { number: 'number', wall: 'number', kind: 'word(event|connection|order)', robot: 'line(100)', name: 'line(64)', args: 'Words', text: 'text(2000)' },
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
@@ -2461,6 +2506,9 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'fleet.open': { may: 'driver', kind: 'edit', out: {} },
   'fleet.close': { may: 'driver', kind: 'edit', out: {} },
   'fleet.order': { may: 'driver', kind: 'act', out: { outcomes: '[FleetOutcome; 10000]' } },
+  'fleet.deploy': { may: 'driver', kind: 'act', out: {} },
+  'fleet.rollback': { may: 'driver', kind: 'act', out: {} },
+  'fleet.rollout_stop': { may: 'driver', kind: 'act', out: {} },
   'fleet.stop': { may: 'look', kind: 'stop', out: { outcomes: '[FleetOutcome; 10000]' } },
   'node.run': { may: 'driver', kind: 'act', out: { failed: '[Failed; 1024]' } },
   'node.pause': { may: 'driver', kind: 'stop', out: { failed: '[Failed; 1024]' } },
@@ -2534,6 +2582,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'scripts': { kind: 'document', is: { parts: '[ScriptPart; 1000]', files: '[SharedFile; 200]' } },
   'robot': { kind: 'document', is: { target: 'line(256)', name: 'line(256)', kind: 'word(none|simulator|bus)', state: 'word(none|connecting|connected|lost|failed)', why: 'text(1000)?', since_wall: 'number?', nodes: '[Node; 1024]', twins: '[line(300); 100]', load: 'number?', lost: 'number', events_a_second: 'number' } },
   'fleet': { kind: 'document', is: { state: 'word(none|connecting|connected|lost)', target: 'line(256)?', fleet: 'line(64)?', user: 'line(256)?', why: 'text(2000)?', robots: '{FleetRobot; 10000}' } },
+  'rollout': { kind: 'document', is: { state: 'word(none|running|well|failed|left)', target: 'line(256)', project: 'line(200)?', version: 'line(200)', back: 'bool', by: 'line(100)', why: 'text(2000)', begun_wall: 'number', served: 'bool', robots: '{RolloutRobot; 10000}' } },
   'fleet_events': { kind: 'stream', item: 'FleetEvent' },
   'network': { kind: 'document', is: { links: '[Link; 256]', traffic: '[Traffic; 2000]' } },
   'node': { kind: 'document', is: { name: 'Name', variables: '[Variable; 4096]', events: '[LocalEvent; 256]', natives: '[Native; 512]' } },

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "serve/edit/condition_check.hpp"
 #include "serve/edit/named_paths.hpp"
 #include "serve/edit/script_findings.hpp"
 #include "serve/edit/template_list.hpp"
@@ -58,10 +59,16 @@ bool Findings::concerns_files(const std::string& path) {
     if (kind != "script") return is_checked(kind);
     const aesl::CommonDefinitions* common = scripts_.common(path);
     const aesl::CommonDefinitions now = common ? *common : aesl::CommonDefinitions();
-    if (common_[path] == now) return false;
+    if (common_[path] == now) return is_read_by_a_check(path);
     common_[path] = now;
     ++files_generation_;
     return true;
+}
+
+// The condition of being well of vagus.json names variables of scripts.
+bool Findings::is_read_by_a_check(const std::string& path) const {
+    return std::ranges::any_of(
+        of_files_, [&](const auto& one) { return one.second.checkup.read.contains(path); });
 }
 
 // Whether there are others than before.
@@ -255,7 +262,12 @@ Checkup Findings::check(const std::string& path) {
     if (kind == "plan") return check_plan(files_, path, toolboxes_, bus_names());
     if (kind == "world") return check_world_file(files_, path);
     if (kind == "toolbox") return check_toolbox_file(files_, path);
-    return check_project_file(files_, path);
+    Checkup checkup = check_project_file(files_, path);
+    if (path != project_.project_file) return checkup;
+    Checkup condition = check_condition(files_, scripts_, path);
+    std::ranges::move(condition.findings, std::back_inserter(checkup.findings));
+    checkup.read.merge(condition.read);
+    return checkup;
 }
 
 // The file that says which scripts the nodes have.

@@ -56,6 +56,7 @@ private:
     };
 
     bool concerns_files(const std::string& path);
+    bool is_read_by_a_check(const std::string& path) const;
     bool list_again();
     std::vector<std::string> named_in(const std::string& file);
     void find_scope();

@@ -37,6 +37,42 @@ std::string plan(const std::string& actors, const std::string& more = "") {
 const std::string kGoodActor = R"(    "a": { "template": "Wait", "in": { "seconds": "speed" }, )"
                                R"("states": { "Done": "@terminate" } })";
 
+std::string project_with(const std::string& condition, const std::string& plan_path) {
+    return "{\n  \"format\": \"vagus-project/1\",\n" +
+           (plan_path.empty() ? "" : "  \"plan\": \"" + plan_path + "\",\n") +
+           "  \"scripts\": [\"a.aesl\"],\n  \"fleet\": { \"healthy\": { \"condition\": \"" +
+           condition + "\" } }\n}\n";
+}
+
+TEST_F(EditTest, NamesInTheConditionOfBeingWellAreThoseOfThePlanAndTheNodes) {
+    write("a.aesl", project("var token\nonevent buttons\n  token = 1\n"));
+    write("p.plan.json", plan(kGoodActor));
+    const auto found = [&](const std::string& condition) {
+        write("vagus.json", project_with(condition, "p.plan.json"));
+        enter({.plan = "p.plan.json", .project_file = "vagus.json"});
+        std::string texts;
+        for (const DocFinding& one : editing.findings()) {
+            if (one.doc == "vagus.json") texts += one.what + "\n";
+        }
+        return texts;
+    };
+    EXPECT_EQ(found("speed > 2 and node('thymio-II', 'token') == 1"), "");
+    EXPECT_EQ(found("variable('speed') > node('other', 'x')"), "") << "nobody knows that node";
+    EXPECT_EQ(found("sped > 2"),
+              "\"condition\" of \"healthy\": there is no \"sped\" in the plan P; did you mean "
+              "speed?\n");
+    EXPECT_THAT(found("node('thymio-II', 'tokn') > 2"),
+                HasSubstr("the node \"thymio-II\" has no variable \"tokn\"; did you mean token?"));
+    EXPECT_THAT(found("node('thymio-II', 'token[1]') > 2"),
+                HasSubstr("has no variable \"token[1]\""));
+    EXPECT_THAT(found("node('thymio-I', 'token') > 2"),
+                HasSubstr("no script is for a node \"thymio-I\"; did you mean thymio-II?"));
+    write("vagus.json", project_with("token > 0", ""));
+    enter({.project_file = "vagus.json"});
+    EXPECT_THAT(finding("project").what, HasSubstr("write node(\"NODE\", \"token\")"));
+    EXPECT_EQ(finding("project").at, (aesl::Position{4, 40}));
+}
+
 TEST_F(EditTest, EveryErrorAndWarningOfAScriptIsAFinding) {
     write("a.aesl", project("var unused\nonevent buttons\n  zzzz = 1\n  unused = 3\n😀\n"));
     write("plain.aesl", "onevent buton\n");

@@ -21,8 +21,8 @@ constexpr std::string_view kProject[] = {"format",     "name",      "help",   "p
                                          "world",      "toolboxes", "target", "start", "safe_stop",
                                          "when_alone", "fleet",     "x"};
 constexpr std::string_view kProjectStart[] = {"plan", "set", "x"};
-constexpr std::string_view kFleet[] = {"name", "groups",      "send", "hear",
-                                       "tell", "broker_lost", "x"};
+constexpr std::string_view kFleet[] = {"name", "groups",      "send",    "hear",
+                                       "tell", "broker_lost", "healthy", "x"};
 constexpr std::string_view kHears[] = {"event", "from", "x"};
 constexpr std::string_view kSafeStop[] = {"set", "read", "x"};
 constexpr std::string_view kToolbox[] = {"format",    "name",      "help", "project",

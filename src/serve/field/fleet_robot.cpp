@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
@@ -17,6 +18,18 @@ bool is_for_nodes(const fleet::MemberAction& action) {
     return std::holds_alternative<fleet::EmitOnBus>(action) ||
            std::holds_alternative<fleet::Obey>(action) ||
            std::holds_alternative<fleet::StopAlone>(action);
+}
+
+std::vector<fleet::Tells> words_of(const std::string& condition) {
+    std::vector<fleet::Tells> words;
+    const auto formula = plan::WordFormula::parse(condition);
+    if (!formula.ok()) return words;
+    for (const plan::WordFormula::Name& name : formula.value().names()) {
+        if (name.of == plan::WordFormula::Name::Of::Word) {
+            words.push_back({name.node, name.variable});
+        }
+    }
+    return words;
 }
 
 }  // namespace
@@ -62,6 +75,7 @@ FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptio
       tell_list_(options.project.tell),
       link_(std::move(link), talk_.wake),
       now_(now) {
+    if (project_.healthy) condition_words_ = words_of(project_.healthy->condition);
     tell_variables();
 }
 
@@ -69,10 +83,40 @@ void FleetRobot::tell_variables() {
     const auto event = [this](const std::string& name, const std::vector<int16_t>& args) {
         member_.emitted(name, args, now_);
     };
-    const auto variable = [this](const fleet::Tells& one, const std::vector<int16_t>& values) {
-        member_.changed(one.node, one.name, values);
+    std::vector<fleet::Tells> all = tell_list_.all();
+    const std::set<fleet::Tells> told(all.begin(), all.end());
+    const auto variable = [this, told](const fleet::Tells& one,
+                                       const std::vector<int16_t>& values) {
+        if (told.contains(one)) member_.changed(one.node, one.name, values);
+        read_[one] = values;
     };
-    bench_.on_tells(tell_list_.all(), {.event = event, .variable = variable});
+    if (reads_condition_) all.insert(all.end(), condition_words_.begin(), condition_words_.end());
+    bench_.on_tells(std::move(all), {.event = event, .variable = variable});
+}
+
+void FleetRobot::read_condition(bool wanted) {
+    if (wanted == reads_condition_) return;
+    reads_condition_ = wanted;
+    tell_variables();
+}
+
+Result<plan::Value> FleetRobot::read(const plan::WordFormula::Name& name) {
+    if (name.of != plan::WordFormula::Name::Of::Word) return bench_.plan_variable(name.variable);
+    const fleet::Tells word{name.node, name.variable};
+    const Status there = bench_.find_variable(word.node, word.name);
+    if (!there.ok()) {
+        read_.erase(word);  // what it was before says nothing any more
+        return there.error();
+    }
+    const auto found = read_.find(word);
+    if (found == read_.end()) {
+        return Error{Code::Unavailable, name.shown + " was not read yet"};
+    }
+    if (name.element < found->second.size()) {
+        return plan::Value(int64_t{found->second[name.element]});
+    }
+    return Error{Code::NotFound, fmt::format("{}: \"{}\" has {} elements, counted from 0",
+                                             name.shown, word.name, found->second.size())};
 }
 
 FleetRobot::~FleetRobot() {

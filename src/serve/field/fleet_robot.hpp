@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "base/result.hpp"
 #include "fleet/member.hpp"
 #include "fleet/tell_list.hpp"
+#include "plan/word_formula.hpp"
 #include "serve/broker/fleet_options.hpp"
 #include "serve/workbench/workbench.hpp"
 
@@ -37,6 +39,10 @@ public:
     void tick(Time now);
     // What became of the version that was wanted.
     void deployed(const fleet::Version& version) { member_.deployed(version); }
+    // Words of nodes in the project's condition of being well are read from now on, or no longer.
+    void read_condition(bool wanted);
+    // What a name in that condition stands for now.
+    Result<plan::Value> read(const plan::WordFormula::Name& name);
     Time next_tick() const { return std::min(member_.next_tick(), tell_list_.next()); }
 
 private:
@@ -58,6 +64,9 @@ private:
     const fleet::ProjectPart project_;
     fleet::Member member_;
     fleet::TellList tell_list_;
+    bool reads_condition_ = false;
+    std::vector<fleet::Tells> condition_words_;          // of nodes
+    std::map<fleet::Tells, std::vector<int16_t>> read_;  // of these, as they were told last
     MosquittoLink link_;
     Time now_{};
 };

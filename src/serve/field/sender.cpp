@@ -6,8 +6,8 @@
 
 #include "base/base64.hpp"
 #include "base/file.hpp"
-#include "serve/field/bundle.hpp"
 #include "serve/json.hpp"
+#include "serve/workbench/bundle.hpp"
 
 namespace vagus::serve {
 

@@ -98,7 +98,8 @@ private:
             const Status joined = join_fleet();
             if (!joined.ok()) return talk_.log("error", joined.error().what);
         }
-        wanted_.tick();
+        wanted_.tick(now);
+        robot_->read_condition(wanted_.lacks_health());
         robot_->tick(now);
     }
 
@@ -143,7 +144,16 @@ private:
                     [this](const fleet::Version& version) {
                         if (robot_) robot_->deployed(version);
                     },
-                .log = talk_.log};
+                .log = talk_.log,
+                .healthy =
+                    [this] {
+                        const auto& project = bench().project();
+                        return project ? project->fleet.healthy : std::nullopt;
+                    },
+                .read = [this](const plan::WordFormula::Name& name) -> vagus::Result<plan::Value> {
+                    if (robot_) return robot_->read(name);
+                    return Error{Code::Unavailable, "the robot is in no fleet"};
+                }};
     }
 
     WorkbenchPlaces places(const fs::path& data) const {
@@ -165,7 +175,7 @@ private:
 
     Time next_tick() const {
         Time next = std::min({starter_.next_tick(), deployments_.next_tick(), figures_at_});
-        if (robot_) next = std::min(next, robot_->next_tick());
+        if (robot_) next = std::min({next, robot_->next_tick(), wanted_.next_tick()});
         if (manager_.watchdog_every()) next = std::min(next, watchdog_at_);
         return next;
     }

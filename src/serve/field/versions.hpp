@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/result.hpp"
-#include "serve/field/bundle.hpp"
+#include "serve/workbench/bundle.hpp"
 
 namespace vagus::serve {
 

@@ -12,6 +12,8 @@ namespace vagus::serve {
 
 namespace {
 
+constexpr const char* kNotYet = "not_yet";
+
 Result<Packed> checked(const fleet::Want& want, const Result<std::string>& bytes) {
     if (!bytes.ok()) return bytes.error();
     if (sha256_of(bytes.value()) == want.sha256) return unpack(bytes.value());
@@ -47,17 +49,51 @@ void Wanted::want(const fleet::Want& want) {
                        (under_way_ && under_way_->number == want.number);
     if (known) return call_.tell(*last_);
     next_ = want;
-    tick();
+    tick(now_);
 }
 
-void Wanted::tick() {
+void Wanted::tick(Time now) {
+    now_ = now;
     if (next_ && !under_way_ && deployments_.may_begin()) begin();
+    watch_health();
+}
+
+Time Wanted::next_tick() const {
+    return health_ ? health_->next_tick() : Time::max();
+}
+
+bool Wanted::lacks_health() const {
+    return last_ && !under_way_ && last_->result == "started" && last_->healthy == kNotYet;
+}
+
+// Also after the robot was started again in the meantime.
+void Wanted::watch_health() {
+    if (!lacks_health()) return health_.reset();
+    if (!health_) {
+        const auto healthy = call_.healthy();
+        if (!healthy) return;
+        health_.emplace(*healthy, call_.read);
+        tell_at_ = now_;
+    }
+    health_->tick(now_);
+    const bool is_news = health_->why() != last_->why && now_ >= tell_at_;
+    if (!health_->is_well() && !is_news) return;
+    last_->why = health_->why();
+    tell_at_ = now_ + fleet::kConditionToldEvery;
+    if (health_->is_well()) {
+        last_->healthy = "well";
+        keep();
+        call_.log("note", fmt::format("fleet: roll-out {}: {}", last_->number, last_->why));
+        health_.reset();
+    }
+    call_.tell(*last_);
 }
 
 void Wanted::begin() {
     under_way_ = std::exchange(next_, std::nullopt);
     const fleet::Want want = *under_way_;
     last_ = fleet::Version{want.number, want.sha256, "taken", ""};
+    health_.reset();
     call_.tell(*last_);
     call_.log("note", fmt::format("fleet: roll-out {}: {}", want.number,
                                   want.back ? "back to the version before" : want.address));
@@ -96,13 +132,18 @@ void Wanted::told(const std::string& result, const std::string& why) {
     const fleet::Want want = *std::exchange(under_way_, std::nullopt);
     last_ = fleet::Version{want.number, want.sha256, result,
                            std::string(utf8_prefix(visible_lines(why), fleet::kLineBytesMax))};
+    if (result == "started" && call_.healthy()) last_->healthy = kNotYet;
+    keep();
+    call_.tell(*last_);
+    call_.log("note", fmt::format("fleet: roll-out {}: {}{}", want.number, result,
+                                  why.empty() ? "" : ": " + why));
+}
+
+void Wanted::keep() const {
     std::error_code failed;  // then it cannot be written either, and that is said
     std::filesystem::create_directories(std::filesystem::path(call_.file).parent_path(), failed);
     const Status kept = write_file(call_.file, fleet::payload_of(*last_) + "\n");
     if (!kept.ok()) call_.log("warning", "fleet: " + kept.error().what);
-    call_.tell(*last_);
-    call_.log("note", fmt::format("fleet: roll-out {}: {}{}", want.number, result,
-                                  why.empty() ? "" : ": " + why));
 }
 
 }  // namespace vagus::serve

@@ -1,11 +1,12 @@
 // The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
 // fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
 // roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
-// of the last one is in PROJECT/.vagus/want.json.
+// of the last one is in PROJECT/.vagus/want.json. A project with a condition of its own is watched
+// from its start until that was true for long enough, and each change of what it lacks is told.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
 //     wanted.want(want);   // as often as it comes
-//     wanted.tick();       // when something may have changed
+//     wanted.tick(now);    // when something may have changed
 #pragma once
 
 #include <functional>
@@ -16,7 +17,8 @@
 #include "base/result.hpp"
 #include "fleet/message.hpp"
 #include "serve/field/deployments.hpp"
-#include "serve/field/pack.hpp"
+#include "serve/field/health_watch.hpp"
+#include "serve/workbench/pack.hpp"
 #include "serve/worker.hpp"
 
 namespace vagus::serve {
@@ -30,12 +32,20 @@ public:
         Worker::Post work = Worker::at_once;
         std::function<void(const fleet::Version& version)> tell;
         std::function<void(const std::string& kind, const std::string& text)> log;
+        // Of the project that is in force: its condition, if it has one, and the values in it.
+        std::function<std::optional<fleet::Healthy>()> healthy = [] {
+            return std::optional<fleet::Healthy>();
+        };
+        HealthWatch::Read read = [](auto&) { return Error{Code::Unavailable, "nothing is read"}; };
     };
     // `deployments` is borrowed.
     Wanted(Deployments& deployments, Callbacks calls);
 
     void want(const fleet::Want& want);
-    void tick();
+    void tick(Time now);
+    Time next_tick() const;
+    // It has started, and its condition was not true for long enough yet.
+    bool lacks_health() const;
     // What came of the last one.
     const std::optional<fleet::Version>& last() const { return last_; }
 
@@ -45,12 +55,16 @@ private:
     void send(const std::shared_ptr<const Packed>& packed, size_t file);
     void over(const DeployOutcome& outcome);
     void told(const std::string& result, const std::string& why);
+    void keep() const;
+    void watch_health();
 
     Deployments& deployments_;
     Callbacks call_;
     std::optional<fleet::Want> next_;  // it waits for its turn
     std::optional<fleet::Want> under_way_;
     std::optional<fleet::Version> last_;
+    std::optional<HealthWatch> health_;
+    Time now_{}, tell_at_{};
 };
 
 }  // namespace vagus::serve

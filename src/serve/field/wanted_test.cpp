@@ -4,6 +4,7 @@
 
 #include "base/file.hpp"
 #include "base/test_folder.hpp"
+#include "fleet/limits.hpp"
 
 namespace vagus::serve {
 namespace {
@@ -30,10 +31,14 @@ protected:
                 },
                 .tell =
                     [this](const fleet::Version& version) {
-                        told.push_back(version.result);
+                        told.push_back(version.result + version.healthy);
                         why = version.why;
                     },
-                .log = [](auto&, auto&) {}};
+                .log = [](auto&, auto&) {},
+                .healthy = [this] { return healthy; },
+                .read = [this](const plan::WordFormula::Name&) -> Result<plan::Value> {
+                    return plan::Value(battery);
+                }};
     }
 
     // What comes of it; the robot takes what time it needs.
@@ -45,7 +50,11 @@ protected:
         now += kProvesWithin;
         deployments.tick(now);
         starter.tick(now);
-        wanted.tick();
+        wanted.tick(now);
+    }
+    // In steps of a look at its condition.
+    void pass(Duration time) {
+        for (const Time end = now + time; now < end;) wanted.tick(now += fleet::kConditionEvery);
     }
     fleet::Want serve(int64_t number, const std::string& content) {
         const Bundle bundle{.name = "Rover",
@@ -60,6 +69,8 @@ protected:
     std::vector<std::string> told;
     std::vector<DocFinding> findings;
     int fetches = 0;
+    std::optional<fleet::Healthy> healthy;
+    int64_t battery = 0;
     Time now{};
     Versions versions{project};
     Starter starter{{.missing = [] { return std::vector<std::string>(); },
@@ -129,6 +140,60 @@ TEST_F(WantedTest, BackIsTheVersionBefore) {
     wants({9, "", "", true});
     EXPECT_EQ(opened, "one");
     EXPECT_EQ(told.back(), "started");
+}
+
+TEST_F(WantedTest, ItsConditionIsToldUntilItWasTrueForLongEnough) {
+    healthy = fleet::Healthy{"battery > 20", 5s};
+    wants(serve(7, "one"));
+    EXPECT_THAT(told, ElementsAre("taken", "startednot_yet", "startednot_yet"));
+    EXPECT_EQ(why, "its condition battery > 20 is not true: battery = 0");
+    EXPECT_TRUE(wanted.lacks_health());
+    told.clear();
+    battery = 25;
+    pass(5s);  // true since 0.1 s
+    EXPECT_THAT(told, ElementsAre("startednot_yet"));
+    EXPECT_EQ(why, "its condition battery > 20 is true, but not yet for 5 s: battery = 25");
+    pass(100ms);
+    EXPECT_THAT(told, ElementsAre("startednot_yet", "startedwell"));
+    pass(1min);
+    EXPECT_EQ(told.size(), 2u);
+    EXPECT_FALSE(wanted.lacks_health());
+    Wanted again(deployments, callbacks());  // the robot was started again
+    again.want({7, "", "", false});
+    EXPECT_EQ(told.back(), "startedwell");
+}
+
+TEST_F(WantedTest, WhatItsConditionLacksIsToldOnceASecondAtMost) {
+    healthy = fleet::Healthy{"battery > 20", 5s};
+    wants(serve(7, "one"));
+    pass(1s);
+    told.clear();
+    for (int i = 0; i < 20; ++i) {
+        battery = i % 2;
+        pass(100ms);
+    }
+    EXPECT_GE(told.size(), 1u);
+    EXPECT_LE(told.size(), 2u);
+}
+
+TEST_F(WantedTest, ARobotThatWasStartedAgainGoesOnLooking) {
+    healthy = fleet::Healthy{"battery > 20", 5s};
+    wants(serve(7, "one"));
+    Wanted again(deployments, callbacks());
+    EXPECT_TRUE(again.lacks_health());
+    battery = 25;
+    again.tick(now);
+    again.tick(now + 5s);
+    EXPECT_EQ(told.back(), "startedwell");
+}
+
+TEST_F(WantedTest, TheNextVersionEndsTheLook) {
+    healthy = fleet::Healthy{"battery > 20", 5s};
+    wants(serve(7, "one"));
+    healthy.reset();
+    wants(serve(8, "two"));
+    EXPECT_EQ(told.back(), "started");
+    EXPECT_FALSE(wanted.lacks_health());
 }
 
 TEST_F(WantedTest, TheLastOfTwoThatComeAtOnceStays) {

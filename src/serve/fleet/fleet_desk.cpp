@@ -34,12 +34,14 @@ std::optional<std::string> fault_of_command(fleet::Command command) {
 
 }  // namespace
 
-FleetDesk::FleetDesk(Desk& desk, Connect connect) : desk_(desk), connect_(std::move(connect)) {
+FleetDesk::FleetDesk(Desk& desk, Connect connect, RolloutPlaces places)
+    : desk_(desk), connect_(std::move(connect)), rollouts_(desk, std::move(places)) {
     desk.topics().document("fleet", [this](const Json&) {
         return view_ ? view_->document() : Json{{"state", "none"}, {"robots", Json::object()}};
     });
     desk.topics().stream("fleet_events", Protocol::get().limit("fleet_events_kept"));
     declare_commands();
+    declare_rollout_commands();
 }
 
 void FleetDesk::declare_commands() {
@@ -59,6 +61,58 @@ void FleetDesk::declare_commands() {
     desk_.command("fleet.stop", [this](const Call& call) { stop(call); });
 }
 
+void FleetDesk::declare_rollout_commands() {
+    desk_.command("fleet.deploy", [this](const Call& call) {
+        if (!is_ready(call)) return;
+        RolloutDesk::Order order = rollout_order(call);
+        order.robots = robots_in_order(call.in);
+        order.steps = call.in.value("steps", kStepsUnlessTold);
+        rollouts_.begin(std::move(order), now_,
+                        [call](const Status& begun) { call.answer(begun); });
+    });
+    desk_.command("fleet.rollback", [this](const Call& call) {
+        if (is_ready(call)) call.answer(rollouts_.roll_back(rollout_order(call), now_));
+    });
+    desk_.command("fleet.rollout_stop",
+                  [this](const Call& call) { call.answer(rollouts_.stop(name_of(call))); });
+}
+
+// Who wants something of robots that cannot be told is told that.
+bool FleetDesk::is_ready(const Call& call) const {
+    if (!view_) {
+        call.fail("unavailable", kNoFleet);
+    } else if (!view_->is_connected()) {
+        const std::string why = view_->why();
+        call.fail("unavailable", "it could not be sent: " +
+                                     (why.empty() ? "the broker has not answered yet" : why));
+    } else {
+        return true;
+    }
+    return false;
+}
+
+std::string FleetDesk::name_of(const Call& call) const {
+    const Clients::Member* const member = desk_.clients().find(call.member);
+    return member ? member->name : "";
+}
+
+RolloutDesk::Order FleetDesk::rollout_order(const Call& call) const {
+    const bool here =
+        host_.starts_with("127.") || host_ == "localhost" || host_ == "::1" || host_ == "[::1]";
+    return {
+        .fleet = view_->fleet(), .target = target_, .broker_is_here = here, .by = name_of(call)};
+}
+
+// Those that are there come first: they say at once whether it is a good version.
+std::vector<std::string> FleetDesk::robots_in_order(const Json& in) const {
+    fleet::Chosen to{.all = !in.contains("robots")};
+    if (!to.all) to.robots = in["robots"].get<std::vector<std::string>>();
+    std::vector<std::string> robots = view_->desk().chosen(to);
+    std::ranges::stable_partition(robots,
+                                  [this](const std::string& one) { return is_online(one); });
+    return robots;
+}
+
 Status FleetDesk::open(const FleetOptions& options, Time now) {
     const std::string name = operator_name();
     LinkOptions link = TRY(link_of_fleet(options, name));
@@ -68,6 +122,8 @@ Status FleetDesk::open(const FleetOptions& options, Time now) {
                                                            .fleet = link.target.fleet,
                                                            .name = name,
                                                            .user = link.login.user});
+    target_ = to_string(link.target);
+    host_ = link.target.host;
     link_ = connect_(std::move(link));
     return Status::done();
 }
@@ -76,6 +132,7 @@ void FleetDesk::close() {
     for (const Waiting& one : std::exchange(waiting_, {})) {
         one.call.fail("unavailable", "the fleet was closed meanwhile");
     }
+    rollouts_.leave("the fleet was closed; robots that have the version keep it");
     link_.reset();
     view_.reset();
     desk_.topics().forget("fleet_events");
@@ -188,10 +245,9 @@ void FleetDesk::log_order(const Waiting& waiting, const Json& outcomes) {
     }
     std::string text = fmt::format("{} of {} robots", done, outcomes.size());
     if (!missing.empty()) text += "; not " + missing;
-    const Clients::Member* member = desk_.clients().find(waiting.call.member);
     desk_.topics().add("fleet_events", {{"wall", desk_.wall_ms()},
                                         {"kind", "order"},
-                                        {"robot", member ? member->name : ""},
+                                        {"robot", name_of(waiting.call)},
                                         {"name", waiting.verb},
                                         {"args", Json::array()},
                                         {"text", text}});
@@ -201,8 +257,16 @@ void FleetDesk::log_order(const Waiting& waiting, const Json& outcomes) {
 
 void FleetDesk::tick(Time now) {
     now_ = now;
+    rollouts_.tick(now);
     if (!view_) return;
-    for (const fleet::LinkEvent& event : link_->take()) view_->hear(event, now, desk_.wall_ms());
+    for (const fleet::LinkEvent& event : link_->take()) {
+        view_->hear(event, now, desk_.wall_ms());
+        rollouts_.hear(event, now);
+        if (std::holds_alternative<fleet::Connected>(event)) {
+            link_->subscribe({{fleet::filter_of(view_->fleet(), fleet::Kind::Version)}});
+        }
+    }
+    rollouts_.tick(now);
     view_->desk().tick(now);
     perform_all();
     for (Json& event : view_->take_events()) desk_.topics().add("fleet_events", std::move(event));
@@ -230,11 +294,12 @@ void FleetDesk::perform_all() {
             link_->publish(std::get<fleet::Post>(action));
         }
     }
+    for (const fleet::Post& post : rollouts_.take()) link_->publish(post);
 }
 
 Time FleetDesk::next_tick() const {
-    if (!view_) return Time::max();
-    Time next = std::min(next_ages_, view_->desk().next_tick());
+    if (!view_) return rollouts_.next_tick();
+    Time next = std::min({next_ages_, view_->desk().next_tick(), rollouts_.next_tick()});
     if (to_show_) next = std::min(next, next_shown_);
     return next;
 }

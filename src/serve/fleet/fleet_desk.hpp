@@ -1,6 +1,6 @@
 // The fleet that pages look at: its broker, the topics fleet and fleet_events, the commands
-// fleet.open, fleet.close, fleet.order and fleet.stop. Beside the project and its target, not in
-// their place. One thread, told the time.
+// fleet.open, fleet.close, fleet.order, fleet.stop, and those of a roll-out (rollout_desk.hpp).
+// Beside the project and its target, not in their place. One thread, told the time.
 //
 //     FleetDesk fleet(desk, [&](LinkOptions options) { return link_to_broker(options); });
 //     TRY(fleet.open({.target = "mqtts://broker/lab", .ca = "ca.crt"}, now));
@@ -18,6 +18,7 @@
 #include "base/time.hpp"
 #include "serve/broker/fleet_options.hpp"
 #include "serve/fleet/fleet_view.hpp"
+#include "serve/fleet/rollout_desk.hpp"
 #include "serve/studio/desk.hpp"
 
 namespace vagus::serve {
@@ -34,7 +35,7 @@ class FleetDesk {
 public:
     using Connect = std::function<std::unique_ptr<fleet::Link>(LinkOptions options)>;
     // Declares its topics and commands.
-    FleetDesk(Desk& desk, Connect connect);
+    FleetDesk(Desk& desk, Connect connect, RolloutPlaces places = {});
 
     // In place of the one that is open. The Error says what is wrong with the options or the files
     // that they name; a broker that is not there is looked for until it is.
@@ -55,6 +56,11 @@ private:
     void declare_commands();
     void order(const Call& call);
     void stop(const Call& call);
+    void declare_rollout_commands();
+    RolloutDesk::Order rollout_order(const Call& call) const;
+    std::vector<std::string> robots_in_order(const Json& in) const;
+    bool is_ready(const Call& call) const;
+    std::string name_of(const Call& call) const;
     void begin(const Call& call, fleet::Order order);
     bool is_settled(const Waiting& waiting) const;
     void settle(const Waiting& waiting);
@@ -65,7 +71,9 @@ private:
 
     Desk& desk_;
     const Connect connect_;
+    RolloutDesk rollouts_;
     std::unique_ptr<FleetView> view_;
+    std::string target_, host_;  // of the fleet that is open
     std::unique_ptr<fleet::Link> link_;
     std::list<Waiting> waiting_;
     Time now_{}, next_shown_{}, next_ages_{};

@@ -47,8 +47,8 @@ protected:
     void hear(const fleet::Topic& topic, const fleet::Message& message) {
         hear(fleet::Received{{topic, message}, false});
     }
-    void open_fleet() {
-        ASSERT_TRUE(fleet.open({.target = "mqtt://broker/lab"}, now).ok());
+    void open_fleet(const std::string& host = "broker") {
+        ASSERT_TRUE(fleet.open({.target = "mqtt://" + host + "/lab"}, now).ok());
         hear(fleet::Connected{});
         const std::string own = wire.options.client;
         hear({.kind = Kind::Command, .robot = own, .name = "stop"},
@@ -75,10 +75,17 @@ protected:
     Json last() { return got[ClientId{1}].back(); }
 
     Wire wire;
-    FleetDesk fleet{desk, [this](LinkOptions options) {
+    FleetDesk fleet{desk,
+                    [this](LinkOptions options) {
                         wire.options = std::move(options);
                         return std::make_unique<TestLink>(wire);
-                    }};
+                    },
+                    {.version = [] {
+                        const auto packed = []() -> Result<PackedVersion> {
+                            return PackedVersion{"the version", "ab"};
+                        };
+                        return std::optional(OpenVersion{"Rover", packed});
+                    }}};
 };
 
 TEST_F(FleetDeskTest, WithoutAFleetNothingIsOrdered) {
@@ -222,6 +229,31 @@ TEST_F(FleetDeskTest, TilesChangeFiveTimesASecondAtMost) {
     }
     EXPECT_LE(got[ClientId{1}].size() - before, 6u);
     EXPECT_GE(got[ClientId{1}].size() - before, 4u);
+}
+
+TEST_F(FleetDeskTest, AVersionIsForThoseThatAreThereFirst) {
+    EXPECT_EQ(order(3, "fleet.deploy", Json::object())["error"]["what"],
+              "no fleet is open; open one with its address first");
+    open_fleet("127.0.0.1");
+    robot("r1", "lost"), robot("r2");
+    EXPECT_TRUE(order(4, "fleet.deploy", {{"steps", "1,100%"}}).contains("ok"));
+    tick();
+    ASSERT_EQ(wire.posts.size(), 1u);
+    EXPECT_EQ(wire.posts[0].topic, "vagus/1/lab/robot/r2/want");
+    EXPECT_EQ(order(5, "fleet.rollback", Json::object())["error"]["what"],
+              "a roll-out is under way; stop it, or wait for its end");
+    EXPECT_TRUE(order(6, "fleet.rollout_stop", Json::object()).contains("ok"));
+    EXPECT_TRUE(order(7, "fleet.rollout_stop", Json::object()).contains("error"));
+    hear(fleet::Lost{"cut"});
+    EXPECT_EQ(order(8, "fleet.deploy", Json::object())["error"]["what"],
+              "it could not be sent: cut");
+}
+
+TEST_F(FleetDeskTest, RobotsElsewhereNeedAnAddressThatTheyReach) {
+    open_fleet();
+    robot("r1");
+    const std::string what = order(3, "fleet.deploy", Json::object())["error"]["what"];
+    EXPECT_NE(what.find("--deploy-listen"), std::string::npos) << what;
 }
 
 TEST_F(FleetDeskTest, PagesSeeWhatWasOrdered) {

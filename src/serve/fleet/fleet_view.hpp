@@ -29,6 +29,7 @@ public:
     };
     explicit FleetView(Options options);
 
+    const std::string& fleet() const { return options_.fleet; }
     fleet::Operator& desk() { return desk_; }
     const fleet::Operator& desk() const { return desk_; }
     void hear(const fleet::LinkEvent& event, Time now, double wall_ms);

@@ -8,8 +8,8 @@
 
 #include <fstream>
 
-#include "serve/field/bundle.hpp"
 #include "serve/project/files.hpp"
+#include "serve/workbench/bundle.hpp"
 
 namespace vagus::serve {
 namespace {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/value.hpp"
 #include "serve/json.hpp"
 #include "serve/process.hpp"
 #include "serve/run/flows.hpp"
@@ -143,6 +144,8 @@ public:
     std::optional<std::string> plan_text(const std::string& doc) const;
     // What the plan that runs does now: its innermost actor; empty without one.
     std::string actor() const;
+    // What a variable of the plan that runs, the outermost, holds. The Error says why nobody knows.
+    vagus::Result<plan::Value> variable(const std::string& name) const;
     // The plan that runs waits for an event of that name.
     bool plan_hears(const std::string& event) const {
         return plan_runs() && hears_.contains(event);

@@ -2,6 +2,7 @@
 #include "serve/run/run.hpp"
 
 #include "serve/json.hpp"
+#include "serve/plan_value.hpp"
 
 namespace vagus::serve {
 
@@ -28,6 +29,17 @@ Json Run::clock_document() const {
 std::string Run::actor() const {
     if (!plan_runs() || !plan_ || plan_->levels.empty()) return "";
     return plan_->levels.back().document.json.value("actor", "");
+}
+
+vagus::Result<plan::Value> Run::variable(const std::string& name) const {
+    if (!plan_runs() || !plan_ || plan_->levels.empty()) {
+        return Error{Code::Unavailable, "no plan runs, which has its variables"};
+    }
+    const Json& outermost = plan_->levels.front().document.json;
+    for (const Json& one : outermost.value("variables", Json::array())) {
+        if (one["name"] == name) return plan_value(one["value"]);
+    }
+    return Error{Code::NotFound, "the plan that runs has no variable " + name};
 }
 
 Json Run::plan_document() const {

@@ -7,6 +7,7 @@
 
 #include "serve/fleet/fleet_desk.hpp"
 #include "serve/process.hpp"
+#include "serve/workbench/pack.hpp"
 #include "serve/workbench/server_loop.hpp"
 
 namespace vagus::serve {
@@ -37,6 +38,18 @@ Status open_first(const StudioOptions& options, ServerLoop& server) {
     if (!options.example.empty()) return server.bench().open_example(options.example, now);
     if (!options.project.empty()) return server.bench().open(options.project, now);
     return Status::done();
+}
+
+// What is saved of the project that is open: what robots of the fleet can get.
+std::optional<OpenVersion> version_of(const std::optional<OpenedProject>& project) {
+    if (!project || project->project_file.empty()) return std::nullopt;
+    const auto packed = [folder = project->folder]() -> vagus::Result<PackedVersion> {
+        const CollectedBundle collected = TRY(collect_bundle(folder));
+        std::string bytes = TRY(pack(collected));
+        std::string sha256 = sha256_of(bytes);
+        return PackedVersion{std::move(bytes), std::move(sha256)};
+    };
+    return OpenVersion{project->name, packed};
 }
 
 fs::path first_page(const fs::path& data) {
@@ -71,14 +84,25 @@ Status run_studio(const StudioOptions& options, const StudioTalk& talk) {
     server.bench().on_end(
         [&server, &talk](const life::End&) { talk.log(server.bench().end_in_words()); });
     net::Links& links = server.links();
-    FleetDesk fleet(server.desk(), [&links](LinkOptions link) {
-        return std::make_unique<MosquittoLink>(std::move(link), [&links] { links.wake(); });
-    });
+    Worker packer([&links] { links.wake(); });
+    FleetDesk fleet(server.desk(),
+                    [&links](LinkOptions link) {
+                        return std::make_unique<MosquittoLink>(std::move(link),
+                                                               [&links] { links.wake(); });
+                    },
+                    {.shelf = options.shelf,
+                     .version = [&server] { return version_of(server.bench().project()); },
+                     .work = packer.poster(),
+                     .file = (data / "rollout.json").string()});
     if (!options.fleet.target.empty()) TRY(fleet.open(options.fleet, links.now()));
     TRY(open_first(options, server));
     tell_address(talk, server.door(), data);
     server.run({.next_tick = [&fleet](Time) { return fleet.next_tick(); },
-                .tick = [&fleet](Time now) { fleet.tick(now); },
+                .tick =
+                    [&fleet, &packer](Time now) {
+                        packer.tick();
+                        fleet.tick(now);
+                    },
                 .before_end = [&fleet] { fleet.close(); }});
     return Status::done();
 }

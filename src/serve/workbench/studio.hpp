@@ -6,6 +6,7 @@
 
 #include "base/result.hpp"
 #include "serve/broker/fleet_options.hpp"
+#include "serve/web/shelf.hpp"
 #include "serve/workbench/door.hpp"
 
 namespace vagus::serve {
@@ -14,6 +15,7 @@ struct StudioOptions {
     std::string project = {};  // a path; empty: the start screen
     std::string example = {};  // or an example
     FleetOptions fleet = {};   // to look at
+    ShelfOptions shelf = {};   // where its robots fetch another version
     DoorOptions door = {};
     std::string data = {}, config = {};  // folders; empty: the user's
 };

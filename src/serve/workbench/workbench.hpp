@@ -141,6 +141,9 @@ public:
     Status find_variable(const std::string& node, const std::string& name) const {
         return target_.find_variable(node, name);
     }
+    vagus::Result<plan::Value> plan_variable(const std::string& name) const {
+        return run_.variable(name);
+    }
     // What somebody of the fleet wants; `done` gets the answer, once.
     using Obeyed = std::function<void(fleet::Answer answer)>;
     void obey(const fleet::Command& command, Obeyed done);

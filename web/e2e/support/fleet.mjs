@@ -89,6 +89,29 @@ const kRoom = {
 };
 
 /**
+ * The project of a member; `more` is of its key "fleet", `script` comes before its own.
+ * @param {Test} t
+ * @param {{ script?: string, more?: object }} options
+ */
+export function makeAlarm(t, { script = '', more = {} } = {}) {
+  const fleet = { name: kFleet, groups: ['red'], send: ['alarm'], hear: ['alarm'], ...more };
+  const project = {
+    name: 'Alarm',
+    scripts: ['robot.aesl'],
+    world: 'room.world.json',
+    target: 'sim',
+  };
+  return makeProject(
+    t,
+    { ...project, fleet },
+    {
+      'robot.aesl': aesl({ 'thymio-II': script + kScript }, { events: { alarm: 1 } }),
+      'room.world.json': JSON.stringify(kRoom),
+    },
+  );
+}
+
+/**
  * A simulated Thymio that is served as a member of the fleet.
  * @param {Test} t
  * @param {string} target
@@ -96,21 +119,7 @@ const kRoom = {
  * @param {readonly string[]} login
  */
 export async function startMember(t, target, name, login = []) {
-  const fleet = { name: kFleet, groups: ['red'], send: ['alarm'], hear: ['alarm'] };
-  const project = {
-    name: 'Alarm',
-    scripts: ['robot.aesl'],
-    world: 'room.world.json',
-    target: 'sim',
-  };
-  const { folder, place } = makeProject(
-    t,
-    { ...project, fleet },
-    {
-      'robot.aesl': aesl({ 'thymio-II': kScript }, { events: { alarm: 1 } }),
-      'room.world.json': JSON.stringify(kRoom),
-    },
-  );
+  const { folder, place } = makeAlarm(t);
   const program = startProgram(t, [
     ...[vagusProgram, 'serve', place, '--start', '--port', 0],
     ...['--data', join(folder, 'data'), '--config', join(folder, 'config')],

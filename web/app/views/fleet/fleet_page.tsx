@@ -8,6 +8,7 @@ import { FleetGrid } from './fleet_grid';
 import { FleetHead } from './fleet_head';
 import { FleetReport } from './fleet_report';
 import { FleetOrders, FleetTools } from './fleet_tools';
+import { RolloutPanel } from './rollout_panel';
 import { text } from '../../text';
 import { words } from './words';
 import '../../look/fleet.css';
@@ -26,6 +27,7 @@ export default function FleetPage() {
         <FleetReport />
         <FleetTools />
         <FleetOrders />
+        <RolloutPanel />
       </div>
       <div className="fleet__tiles" data-region="tiles">
         <FleetGrid />

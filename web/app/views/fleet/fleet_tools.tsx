@@ -1,5 +1,6 @@
 import {
   IconBroadcast,
+  IconPackageExport,
   IconPlayerPause,
   IconPlayerPlay,
   IconPlayerStop,
@@ -14,6 +15,7 @@ import { Button } from '../../parts/button';
 import { FilterField } from '../../parts/filter_field';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import { DeployForm } from './deploy_form';
 import { OrderForm } from './order_form';
 import { useFleetDesk, useList } from './use_fleet';
 import { words } from './words';
@@ -68,7 +70,7 @@ export function FleetOrders() {
   const desk = useFleetDesk();
   const list = useList();
   const drives = useDrives();
-  const [form, setForm] = useState<'emit' | 'set' | null>(null);
+  const [form, setForm] = useState<'emit' | 'set' | 'deploy' | null>(null);
   const chosen = [...desk.choice.chosen];
   const shown = new Set(list);
   const hidden = chosen.filter((name) => !shown.has(name)).length;
@@ -78,7 +80,7 @@ export function FleetOrders() {
       : verb !== 'stop' && !drives
         ? text.whyNot.viewOnly
         : '';
-  const toggle = (verb: 'emit' | 'set') => setForm(form === verb ? null : verb);
+  const toggle = (verb: 'emit' | 'set' | 'deploy') => setForm(form === verb ? null : verb);
   return (
     <div className="forders" role="group" aria-label={words.orders} data-region="orders">
       <span className="forders__count num" role="status">
@@ -112,7 +114,18 @@ export function FleetOrders() {
         <IconVariable {...icon} />
         {words.verbs.set}…
       </Order>
-      {form ? <OrderForm key={form} verb={form} onClose={() => setForm(null)} /> : null}
+      <Order
+        why={drives ? '' : text.whyNot.viewOnly}
+        isOpen={form === 'deploy'}
+        act={() => toggle('deploy')}
+      >
+        <IconPackageExport {...icon} />
+        {words.deploy.button}…
+      </Order>
+      {form === 'deploy' ? <DeployForm onClose={() => setForm(null)} /> : null}
+      {form === 'emit' || form === 'set' ? (
+        <OrderForm key={form} verb={form} onClose={() => setForm(null)} />
+      ) : null}
     </div>
   );
 }

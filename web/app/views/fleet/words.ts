@@ -1,8 +1,9 @@
 // Words of the page of a fleet: apart from text.ts, as they come with that page alone.
 
-import type { FleetEvent } from '../../../protocol/messages';
+import type { FleetEvent, RolloutRobot } from '../../../protocol/messages';
 import type { Doing, Sort } from '../../../core/fleet';
 import type { Verb } from '../../../core/fleet_desk';
+import type { Rollout } from '../../../core/rollout';
 import { counted } from '../../text';
 
 const robots = (count: number) => counted(count, 'robot', 'robots');
@@ -94,6 +95,37 @@ export const words = {
     send: 'Send',
     set: 'Set',
     close: 'Close',
+  },
+  deploy: {
+    button: 'Deploy',
+    title: 'Deploy another version',
+    what: (project: string, chosen: number, all: number) =>
+      `${project}, as it is saved, for ${chosen === 0 ? `all ${robots(all)}` : chosen === 1 ? 'the chosen robot' : `the ${robots(chosen)} that are chosen`}.`,
+    noProject: 'No project is open whose version robots could get: open one beside the fleet.',
+    steps: 'Steps',
+    help: 'How many robots have it after each step. The first one that is not well ends it.',
+    deploy: 'Deploy',
+  },
+  rollout: {
+    title: 'Roll-out',
+    table: 'What became of each robot',
+    robot: 'Robot',
+    became: 'What became of it',
+    summary: (back: boolean, version: string, well: number, all: number) =>
+      `${back ? 'Roll back' : 'Deploy'} ${version}: ${well} of ${robots(all)} well`,
+    states: {
+      none: '',
+      running: 'under way',
+      well: 'done',
+      failed: 'ended: a robot is not well',
+      left: 'left',
+    } satisfies Record<Rollout['state'], string>,
+    by: (who: string) => `by ${who}`,
+    row: (is: RolloutRobot['is'], why: string) =>
+      `${is === 'later' ? 'as it was' : is}${why === '' ? '' : `: ${why}`}`,
+    more: (count: number) => `and ${count} more`,
+    stop: 'Stop roll-out',
+    back: 'Roll back',
   },
   report: {
     sent: (what: string, count: number | 'all') =>

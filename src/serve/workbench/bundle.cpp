@@ -1,4 +1,4 @@
-#include "serve/field/bundle.hpp"
+#include "serve/workbench/bundle.hpp"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "serve/field/bundle.hpp"
+#include "serve/workbench/bundle.hpp"
 
 namespace vagus::serve {
 

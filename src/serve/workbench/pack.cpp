@@ -1,4 +1,4 @@
-#include "serve/field/pack.hpp"
+#include "serve/workbench/pack.hpp"
 
 #include <fmt/format.h>
 

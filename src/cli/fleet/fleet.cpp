@@ -345,9 +345,10 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
     CLI::App* verb =
         add_verb(app, call, "deploy", "another version of their project for robots, in steps",
                  "Robots fetch it from this program, check it, stop, and start it, as with `vagus "
-                 "deploy`. A robot is\nwell that has started and has no fault for 3 s. The first "
-                 "that is not ends the roll-out: those that have\nthe version keep it until "
-                 "--rollback takes it back. --wait: for each robot, 60 s unless told.\n"
+                 "deploy`. A robot is\nwell that has started, has no fault for 3 s, and meets the "
+                 "\"healthy\" of its project's fleet. The first\nthat is not ends the roll-out: "
+                 "those that have the version keep it until --rollback takes it back. --wait: for "
+                 "each robot, 60 s unless told.\n"
                  "Example:\n"
                  "  vagus fleet mqtts://broker/lab deploy all --project picker --listen "
                  "0.0.0.0:8443 \\\n"

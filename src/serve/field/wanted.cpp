@@ -92,11 +92,14 @@ void Wanted::watch_health() {
 void Wanted::begin() {
     under_way_ = std::exchange(next_, std::nullopt);
     const fleet::Want want = *under_way_;
+    // It has not got the version that others have: the one before is in force.
+    const bool is_back = last_ && (last_->result == "refused" || last_->result == "rolled_back");
     last_ = fleet::Version{want.number, want.sha256, "taken", ""};
     health_.reset();
     call_.tell(*last_);
     call_.log("note", fmt::format("fleet: roll-out {}: {}", want.number,
                                   want.back ? "back to the version before" : want.address));
+    if (want.back && is_back) return told("started", "the version before is in force already");
     if (want.back) {
         return deployments_.back([this](const DeployOutcome& outcome) { over(outcome); });
     }

@@ -142,6 +142,19 @@ TEST_F(WantedTest, BackIsTheVersionBefore) {
     EXPECT_EQ(told.back(), "started");
 }
 
+TEST_F(WantedTest, BackChangesNothingWhereTheLastVersionWasRefused) {
+    wants(serve(7, "one"));
+    wants(serve(8, "two"));
+    fleet::Want bad = serve(9, "three");
+    bad.sha256 = sha256_of("else");
+    wants(bad);
+    EXPECT_EQ(told.back(), "refused");
+    wants({10, "", "", true});
+    EXPECT_EQ(opened, "two");
+    EXPECT_EQ(told.back(), "started");
+    EXPECT_EQ(why, "the version before is in force already");
+}
+
 TEST_F(WantedTest, ItsConditionIsToldUntilItWasTrueForLongEnough) {
     healthy = fleet::Healthy{"battery > 20", 5s};
     wants(serve(7, "one"));

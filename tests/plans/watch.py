@@ -79,7 +79,8 @@ class Watch(unittest.TestCase):
         calls["actors"]["next"] = {**calls["actors"]["call"], "plan": "later.plan.json"}
         calls["actors"]["call"]["states"]["OK"] = "next"
         self.save(json.dumps(calls))
-        program.wait_line(r"r\.plan\.json was saved: the new version runs")
+        # With the slash: what is said of inner.plan.json may come only now.
+        program.wait_line(r"/r\.plan\.json was saved: the new version runs")
         later.write_text(rounds("'even later ' & n"), encoding="utf-8")
         program.wait_line(r"later\.plan\.json was saved: the new version runs")
 

@@ -59,7 +59,6 @@ Json robots_of(const std::vector<fleet::Rollout::Line>& lines) {
 
 std::vector<fleet::Rollout::Line> lines_of(const Json& robots) {
     std::vector<fleet::Rollout::Line> lines;
-    std::vector<size_t> at;
     for (const auto& [name, one] : robots.items()) {
         lines.push_back({name, place_of_word(one["is"]), one["why"], one["has"].get<bool>()});
     }
@@ -295,8 +294,8 @@ void RolloutDesk::keep() {
     to_keep_ = false;
     next_kept_ = now_ + kRolloutKeptEvery;
     if (places_.file.empty()) return;
-    const Status kept = write_file(
-        places_.file, Json{{"number", number_}, {"rollout", last_document()}}.dump() + "\n");
+    const Json json = {{"number", number_}, {"rollout", last_document()}};
+    const Status kept = write_file(places_.file, json_text(json) + "\n");
     // It runs all the same; only who starts the studio again does not read of it.
     if (!kept.ok() && !std::exchange(told_unkept_, true)) {
         why_ = kept.error().what;

@@ -110,7 +110,7 @@ export const words = {
     title: 'Roll-out',
     table: 'What became of each robot',
     robot: 'Robot',
-    became: 'What became of it',
+    became: 'Result',
     summary: (back: boolean, version: string, well: number, all: number) =>
       `${back ? 'Roll back' : 'Deploy'} ${version}: ${well} of ${robots(all)} well`,
     states: {

@@ -133,7 +133,11 @@ async function compareWith({ page, command, press }, other) {
   await command('Compare the plan with…');
   await seen(page.getByRole('menuitem', { name: other }));
   await until(`${other} has the keyboard`, async () => {
-    const now = await page.evaluate(() => document.activeElement?.textContent ?? '');
+    // The menu itself has all of their names.
+    const now = await page.evaluate(() => {
+      const { activeElement: focus } = document;
+      return focus?.getAttribute('role') === 'menuitem' ? (focus.textContent ?? '') : '';
+    });
     if (now.includes(other)) return true;
     await press('ArrowDown');
     return false;

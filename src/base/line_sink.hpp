@@ -42,9 +42,9 @@ public:
 
     // It goes somewhere.
     explicit operator bool() const { return descriptor_ >= 0; }
-    // From here on no write waits for who reads a pipe, a terminal or a socket: what is not read in
-    // time is left out, and flush() says how much. `patience`: of LogLines. A file is written as
-    // always, and keeps every line.
+    // From now on, writes do not wait for the reader of a pipe, a terminal or a socket: lines that
+    // are not read in time are left out, and flush() tells how many. `patience`: as in LogLines.
+    // Files are written as before and keep every line.
     void never_wait(Duration patience = {});
     // Whole lines, each with its newline. Without effect after a failure.
     void write(std::string_view lines);

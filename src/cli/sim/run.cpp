@@ -131,7 +131,7 @@ Status SimRun::listen() {
 }
 
 Status SimRun::open_trace() {
-    // Who reads along sees what happens when it does.
+    // On stdout, a line appears at once: another program may be reading.
     const auto when =
         options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
     trace_ = TRY(LineSink::open(options_.trace, when));

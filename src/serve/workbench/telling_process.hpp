@@ -30,7 +30,7 @@ public:
     void tick(Time now, const std::function<void(const Packet&)>& hear);
     // Nothing more will come: "ended with status 1". Empty: it goes on.
     std::string gone();
-    // For so long nothing has come, up to the last tick.
+    // The time since the last packet, as of the last tick.
     Duration silent() const { return now_ - heard_.value_or(now_); }
 
 private:

@@ -50,7 +50,7 @@ Status bind_signal(const Name& name, const plan::GraphPlan& plan, bool has_world
 }
 
 plan::Type type_of(const Name& name, const plan::GraphPlan& plan) {
-    if (name.of == Name::Of::Signal) return name.signal->type;
+    if (name.signal != nullptr) return name.signal->type;
     if (name.of == Name::Of::Word) return plan::Type::Int;
     return plan.variables[static_cast<size_t>(name.slot)].type;
 }
@@ -83,16 +83,9 @@ Status check_event(const std::string& text, const plan::Graph& graph) {
 }  // namespace
 
 Result<Condition> Condition::parse(std::string_view text) {
-    using Of = plan::WordFormula::Name::Of;
     Condition made(TRY(plan::WordFormula::parse(text)));
     for (const plan::WordFormula::Name& name : made.formula_.names()) {
-        made.names_.push_back({.shown = name.shown,
-                               .of = name.of == Of::Variable ? Name::Of::Variable
-                                     : name.of == Of::Word   ? Name::Of::Word
-                                                             : Name::Of::Unknown,
-                               .variable = name.variable,
-                               .node = name.node,
-                               .element = name.element});
+        made.names_.push_back({name});
     }
     return made;
 }
@@ -114,9 +107,9 @@ Status Condition::bind(const plan::Graph& graph, bool has_world) {
     for (Name& name : names_) {
         if (name.of == Name::Of::Unknown) {
             name.signal = find_signal(name.variable);
-            name.of = name.signal != nullptr ? Name::Of::Signal : Name::Of::Variable;
+            if (name.signal == nullptr) name.of = Name::Of::Variable;
         }
-        if (name.of == Name::Of::Signal) TRY(bind_signal(name, plan, has_world));
+        if (name.signal != nullptr) TRY(bind_signal(name, plan, has_world));
         if (name.of == Name::Of::Variable) TRY(bind_variable(name, plan));
         if (name.of == Name::Of::Word && !has_world) {
             return Error{Code::Refused, fmt::format("{} is of a robot in a world; give the test a "

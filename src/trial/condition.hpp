@@ -6,7 +6,6 @@
 //     const Result<bool> holds = near.holds(values);     // one Value for each of names()
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,16 +20,10 @@ namespace vagus::trial {
 
 class Condition {
 public:
-    // What a name in it stands for.
-    struct Name {
-        enum class Of : uint8_t { Unknown, Signal, Variable, Word };
-        std::string shown;  // as it is written
-        Of of = Of::Unknown;
+    // What a name in it stands for; bind() knows which of the unknown ones are signals.
+    struct Name : plan::WordFormula::Name {
         const Signal* signal = nullptr;
-        std::string variable = {};  // of the plan, or of the node
-        int slot = -1;              // of the plan's variable
-        std::string node = {};
-        uint16_t element = 0;  // of the node's array
+        int slot = -1;  // of the plan's variable
     };
 
     // The Error says what is wrong with the text, without a place in a file.

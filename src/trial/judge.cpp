@@ -121,7 +121,7 @@ std::string Judge::values_of(const Condition& condition) const {
     };
     for (const Condition::Name& name : condition.names()) add(name);
     if (!condition.uses(SignalId::Actor)) {
-        add({.shown = "actor", .of = Condition::Name::Of::Signal, .signal = find_signal("actor")});
+        add({{.shown = "actor"}, find_signal("actor")});
     }
     return text;
 }

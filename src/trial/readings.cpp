@@ -159,7 +159,7 @@ Status Readings::check(const Condition::Name& name) const {
 }
 
 Result<plan::Value> Readings::value(const Condition::Name& name) const {
-    if (name.of == Condition::Name::Of::Signal) return signal(name.signal->id);
+    if (name.signal != nullptr) return signal(name.signal->id);
     if (name.of == Condition::Name::Of::Word) return plan::Value(int64_t{TRY(word(name))});
     return variables_.value(0, name.slot);
 }

@@ -20,7 +20,6 @@
 #include "run/traced_variables.hpp"
 #include "session/plan_world.hpp"
 #include "session/safe_stop.hpp"
-#include "sim/crew.hpp"
 #include "sim/world_threads.hpp"
 #include "toolbox/bus.hpp"
 #include "toolbox/core_values.hpp"
@@ -33,9 +32,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
-
 constexpr const char* kSomebody = "somebody";  // who ends a run, if nobody says
-
 constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
 
 void tell_on_stderr(const std::string& sentence) {
@@ -43,6 +40,7 @@ void tell_on_stderr(const std::string& sentence) {
 }
 
 Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
+    if (actor.empty()) return what;
     Result<LoadedPlan> started = what.starting_at(actor);
     if (started.ok()) return started;
     return Error{Code::BadInput, fmt::format("--from {}: {}", actor, started.error().what)};
@@ -457,8 +455,7 @@ PreparedRun::~PreparedRun() = default;
 Result<std::unique_ptr<PreparedRun>> PreparedRun::prepare(const LoadedPlan& what,
                                                           const RunWords& words,
                                                           toolbox::Parts& parts) {
-    auto insides = std::make_unique<Insides>(
-        words.from.empty() ? what : TRY(start_of(what, words.from)), words, parts);
+    auto insides = std::make_unique<Insides>(TRY(start_of(what, words.from)), words, parts);
     TRY(insides->take_options());
     // make_unique cannot reach the constructor.
     return std::unique_ptr<PreparedRun>(new PreparedRun(std::move(insides)));
@@ -496,7 +493,10 @@ Result<run::Ended> PreparedRun::run(run::Debugger* debugger) {
     insides_->firing = {};
     // In real time no robot waits for a reader. A debugger's own lines keep their place in a trace.
     const bool may_wait = debugger != nullptr || insides_->words.clock == "virtual";
-    if (!may_wait) insides_->sink.never_wait(), insides_->sink_all.never_wait();
+    if (!may_wait) {
+        insides_->sink.never_wait();
+        insides_->sink_all.never_wait();
+    }
     if (insides_->world) return insides_->run_beside_world();
     if (insides_->bus) return insides_->run_on_bus();
     return insides_->run_with(in_virtual_time() ? run::Clock::Virtual : run::Clock::Real,

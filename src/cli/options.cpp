@@ -109,4 +109,15 @@ void add_dialect_options(CLI::App& verb, aesl::Options& options) {
         ->type_name("EVENT");
 }
 
+void add_certificate_options(CLI::App& verb, const CertificateOptions& names,
+                             std::string& certificate, std::string& key) {
+    CLI::Option* const its_certificate =
+        verb.add_option(names.certificate, certificate, "PEM: " + names.help);
+    CLI::Option* const its_key = verb.add_option(names.key, key, "PEM: its key");
+    takes_file(*its_certificate, {".crt", ".pem"});
+    takes_file(*its_key, {".key", ".pem"});
+    its_certificate->needs(its_key);
+    its_key->needs(its_certificate);
+}
+
 }  // namespace vagus::cli

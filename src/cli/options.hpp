@@ -43,4 +43,13 @@ void add_record_options(CLI::App& verb, std::string& file, bool& camera);
 // (".aesl").
 void takes_file(CLI::Option& option, std::vector<std::string> endings);
 
+// A certificate and its key, two files in PEM; neither without the other. `help`: of the
+// certificate.
+struct CertificateOptions {
+    std::string certificate, key;  // their names: "--tls-cert"
+    std::string help;
+};
+void add_certificate_options(CLI::App& verb, const CertificateOptions& names,
+                             std::string& certificate, std::string& key);
+
 }  // namespace vagus::cli

@@ -4,6 +4,7 @@
 
 #include "cli/options.hpp"
 #include "serve/broker/fleet_options.hpp"
+#include "serve/web/shelf.hpp"
 
 namespace vagus::cli {
 
@@ -15,13 +16,22 @@ void add_broker_options(CLI::App& verb, serve::FleetOptions& options) {
     takes_file(*verb.add_option("--login", options.login,
                                 "a file with two lines: user and password at the broker"),
                {".login"});
-    CLI::Option* certificate = verb.add_option("--client-cert", options.certificate,
-                                               "PEM: a certificate instead of a login");
-    CLI::Option* key = verb.add_option("--client-key", options.key, "PEM: its key");
-    takes_file(*certificate, {".crt", ".pem"});
-    takes_file(*key, {".key", ".pem"});
-    certificate->needs(key);
-    key->needs(certificate);
+    add_certificate_options(verb,
+                            {.certificate = "--client-cert",
+                             .key = "--client-key",
+                             .help = "a certificate instead of a login"},
+                            options.certificate, options.key);
+}
+
+void add_shelf_options(CLI::App& verb, serve::ShelfOptions& shelf, const ShelfWords& words) {
+    verb.add_option(shelf.listen_word, shelf.listen, words.listen)->type_name("ADDRESS:PORT");
+    verb.add_option(words.host_option, shelf.host, words.host)->type_name("NAME");
+    add_certificate_options(
+        verb,
+        {.certificate = shelf.certificate_word,
+         .key = shelf.key_word,
+         .help = "certificate of that name; robots trust who signed it by their --tls-ca"},
+        shelf.certificate, shelf.key);
 }
 
 }  // namespace vagus::cli

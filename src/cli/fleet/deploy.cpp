@@ -67,11 +67,7 @@ int deploy(FleetSession& session, const FleetCall& call) {
         if (!collected.ok()) return complain_of(collected.error());
         const auto bytes = serve::pack(collected.value());
         if (!bytes.ok()) return complain_of(bytes.error());
-        auto opened = serve::Shelf::open({.listen = call.listen,
-                                          .host = call.host,
-                                          .certificate = call.certificate,
-                                          .key = call.key},
-                                         bytes.value());
+        auto opened = serve::Shelf::open(call.shelf, bytes.value());
         if (!opened.ok()) return complain_of(opened.error());
         shelf = std::move(opened.value());
         want.sha256 = serve::sha256_of(bytes.value());

@@ -347,7 +347,7 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
                  "Robots fetch it from this program, check it, stop, and start it, as with `vagus "
                  "deploy`. A robot is\nwell that has started, has no fault for 3 s, and meets the "
                  "\"healthy\" of its project's fleet. The first\nthat is not ends the roll-out: "
-                 "those that have the version keep it until --rollback takes it back. --wait: for "
+                 "those that have the version keep it until --rollback\ntakes it back. --wait: for "
                  "each robot, 60 s unless told.\n"
                  "Example:\n"
                  "  vagus fleet mqtts://broker/lab deploy all --project picker --listen "
@@ -364,18 +364,10 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
     verb->add_option("--steps", call->steps,
                      "how many robots have it after each step (default: 1,10%,100%)")
         ->type_name("STEPS");
-    verb->add_option("--listen", call->listen,
-                     "where robots fetch it (default: 127.0.0.1, a free port)")
-        ->type_name("ADDRESS:PORT");
-    verb->add_option("--host", call->host, "name of this computer for robots")->type_name("NAME");
-    CLI::Option* certificate = verb->add_option("--serve-cert", call->certificate,
-                                                "PEM: certificate of that name; robots trust who "
-                                                "signed it by their --tls-ca");
-    CLI::Option* key = verb->add_option("--serve-key", call->key, "PEM: its key");
-    takes_file(*certificate, {".crt", ".pem"});
-    takes_file(*key, {".key", ".pem"});
-    certificate->needs(key);
-    key->needs(certificate);
+    add_shelf_options(*verb, call->shelf,
+                      {.listen = "where robots fetch it (default: 127.0.0.1, a free port)",
+                       .host = "name of this computer for robots",
+                       .host_option = "--host"});
     verb->parse_complete_callback([call, verb] {
         need_choice(*verb);
         if (call->project.empty() && !call->rollback) {

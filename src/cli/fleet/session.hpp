@@ -12,6 +12,7 @@
 #include "fleet/operator.hpp"
 #include "serve/broker/bell.hpp"
 #include "serve/broker/fleet_options.hpp"
+#include "serve/web/shelf.hpp"
 
 namespace vagus::cli {
 
@@ -26,7 +27,7 @@ struct FleetCall {
     std::vector<int> values;
     std::string variable;
     std::string project, steps = "1,10%,100%";  // of deploy
-    std::string listen = "127.0.0.1:0", host, certificate, key;
+    serve::ShelfOptions shelf;
     bool rollback = false;
 };
 

@@ -16,27 +16,6 @@
 namespace vagus::cli {
 namespace {
 
-// Where robots of the fleet fetch another version, as `vagus fleet TARGET deploy` has it.
-void add_shelf_options(CLI::App& verb, serve::ShelfOptions& shelf) {
-    shelf.listen_word = "--deploy-listen";
-    shelf.certificate_word = "--deploy-cert";
-    shelf.key_word = "--deploy-key";
-    verb.add_option("--deploy-listen", shelf.listen,
-                    "where robots of the fleet fetch another version that a page gives them "
-                    "(default: a free port of 127.0.0.1, for a broker on this computer)")
-        ->type_name("ADDRESS:PORT");
-    verb.add_option("--deploy-host", shelf.host, "name of this computer for these robots")
-        ->type_name("NAME");
-    CLI::Option* certificate = verb.add_option("--deploy-cert", shelf.certificate,
-                                               "PEM: certificate of that name; robots trust who "
-                                               "signed it by their --tls-ca");
-    CLI::Option* key = verb.add_option("--deploy-key", shelf.key, "PEM: its key");
-    takes_file(*certificate, {".crt", ".pem"});
-    takes_file(*key, {".key", ".pem"});
-    certificate->needs(key);
-    key->needs(certificate);
-}
-
 // There is a screen on which a browser can appear.
 bool has_screen() {
     const auto said = [](const char* name) {
@@ -81,7 +60,15 @@ void add_studio(CLI::App& app, int& exit_code) {
                      "also looks at the robots of this fleet: mqtt[s]://HOST[:PORT]/FLEET")
         ->type_name("TARGET");
     add_broker_options(*verb, options->fleet);
-    add_shelf_options(*verb, options->shelf);
+    options->shelf.listen_word = "--deploy-listen";
+    options->shelf.certificate_word = "--deploy-cert";
+    options->shelf.key_word = "--deploy-key";
+    add_shelf_options(*verb, options->shelf,
+                      {.listen = "where robots of the fleet fetch another version that a page "
+                                 "gives them (default: a free port of 127.0.0.1, for a broker on "
+                                 "this computer)",
+                       .host = "name of this computer for these robots",
+                       .host_option = "--deploy-host"});
     verb->add_option("--data", options->data,
                      "folder of copies, new projects, token (default: ~/.local/share/vagus)")
         ->type_name("FOLDER");

@@ -116,6 +116,31 @@ TEST(Mcap, DamageIsNoticed) {
     }
 }
 
+TEST(Mcap, AnAttachmentInAChunkIsNoAttachment) {
+    std::string attachment;
+    Put(attachment)
+        .u64(1)
+        .u64(1)
+        .string("a")
+        .string("text/plain")
+        .u64(100)
+        .bytes(std::string(100, 'x'));
+    Put(attachment).u32(0);
+    std::string records;
+    Put(records).u8(static_cast<uint8_t>(Opcode::Attachment)).u64(attachment.size());
+    records += attachment;
+    std::string chunk;
+    Put(chunk).u64(0).u64(0).u64(records.size()).u32(0).string("").u64(records.size());
+    chunk += records;
+    std::string file(kMagic);
+    Put(file).u8(static_cast<uint8_t>(Opcode::Chunk)).u64(chunk.size());
+    file += chunk;
+    const auto reader = Reader::open(file, "a.mcap");
+    ASSERT_TRUE(reader.ok());
+    EXPECT_TRUE(reader.value().attachments().empty());
+    EXPECT_TRUE(read_all(reader.value()).empty());
+}
+
 TEST(Mcap, AChunkLargerThanTheLimitIsNotUnpacked) {
     std::string bytes(kMagic);
     std::string content;

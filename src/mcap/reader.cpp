@@ -118,7 +118,8 @@ void Reader::learn_from_chunks() {
         if (!chunk.ok()) continue;
         std::string_view rest = chunk.value();
         while (const std::optional<Record> record = take_record(rest)) {
-            (void)learn(record->opcode, record->content);
+            // The format has no attachments there; the data of one would end with these bytes.
+            if (record->opcode != Opcode::Attachment) (void)learn(record->opcode, record->content);
         }
     }
 }

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/json.hpp"
+
 namespace vagus::plan {
 
 namespace {
@@ -158,6 +160,12 @@ std::string text_of(double number) {
         if (digits.size() > whole) plain += "." + digits.substr(whole);
     }
     return (negative ? "-" : "") + plain;
+}
+
+std::string in_words(const Value& value) {
+    if (value.type() == Type::String) return json_quote(value.string());
+    const Result<std::string> text = text_of(value);
+    return text.ok() ? text.value() : "an object";
 }
 
 Result<std::string> text_of(const Value& value) {

@@ -68,6 +68,8 @@ Value default_of(Type type);
 
 // The fewest digits that read back as the same number (P10): `0.1`, `30`, `-0`, `1e+20`.
 std::string text_of(double number);
+// As in a sentence: a text in quotes, "an object".
+std::string in_words(const Value& value);
 // Any value but an object as text.
 Result<std::string> text_of(const Value& value);
 

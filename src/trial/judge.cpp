@@ -2,17 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "base/json.hpp"
-
 namespace vagus::trial {
 
 namespace {
-
-std::string shown(const plan::Value& value) {
-    if (value.type() == plan::Type::String) return json_quote(value.string());
-    const Result<std::string> text = plan::text_of(value);
-    return text.ok() ? text.value() : "an object";
-}
 
 std::string seconds(Time at) {
     return plan::text_of(seconds_of(at));
@@ -116,8 +108,8 @@ std::string Judge::values_of(const Condition& condition) const {
     const auto add = [&](const Condition::Name& name) {
         const Result<plan::Value> value = readings_.value(name);
         if (!value.ok()) return;
-        text +=
-            fmt::format("{}{} = {}", text.empty() ? "" : ", ", name.shown, shown(value.value()));
+        text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name.shown,
+                            plan::in_words(value.value()));
     };
     for (const Condition::Name& name : condition.names()) add(name);
     if (!condition.uses(SignalId::Actor)) {

@@ -2,21 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "base/json.hpp"
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
 
 namespace vagus::serve {
-
-namespace {
-
-std::string value_in_words(const plan::Value& value) {
-    if (value.type() == plan::Type::String) return json_quote(value.string());
-    const auto text = plan::text_of(value);
-    return text.ok() ? text.value() : "an object";
-}
-
-}  // namespace
 
 HealthWatch::HealthWatch(const fleet::Healthy& healthy, Read read)
     : formula_(plan::WordFormula::parse(healthy.condition)),
@@ -31,7 +20,7 @@ HealthWatch::Look HealthWatch::look() const {
         auto value = read_(name);
         if (!value.ok()) return {false, value.error().what};
         words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", name.shown,
-                             value_in_words(value.value()));
+                             plan::in_words(value.value()));
         values.push_back(std::move(value.value()));
     }
     const auto holds = formula_.value().holds(values);

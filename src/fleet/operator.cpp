@@ -125,6 +125,18 @@ std::vector<std::string> Operator::chosen(const Chosen& to) const {
     return names;
 }
 
+std::vector<std::string> Operator::chosen_online_first(const Chosen& to) const {
+    std::vector<std::string> names = chosen(to);
+    std::stable_partition(names.begin(), names.end(),
+                          [this](const std::string& name) { return is_online(name); });
+    return names;
+}
+
+bool Operator::is_online(const std::string& robot) const {
+    const auto found = robots_.find(robot);
+    return found != robots_.end() && is_online(found->second);
+}
+
 bool Operator::all_are_fresh() const {
     return std::all_of(robots_.begin(), robots_.end(), [](const auto& one) {
         return !is_online(one.second) || one.second.state_at;

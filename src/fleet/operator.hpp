@@ -74,6 +74,9 @@ public:
     bool knows_all() const { return knows_all_; }
     const std::map<std::string, Known>& robots() const { return robots_; }
     std::vector<std::string> chosen(const Chosen& to) const;
+    // The same, those that are online first.
+    std::vector<std::string> chosen_online_first(const Chosen& to) const;
+    bool is_online(const std::string& robot) const;
     // Every robot that is online has told its state since.
     bool all_are_fresh() const;
     static bool is_online(const Known& robot);

@@ -83,6 +83,18 @@ TEST(Operator, ItsOwnMessageIsRepeatedUntilItIsBack) {
     EXPECT_EQ(c.posts.size(), 2u);
 }
 
+TEST(Operator, ThoseThatAreOnlineComeFirst) {
+    Case c;
+    c.robot("r1", "lost");
+    c.robot("r2");
+    c.robot("r3", "offline");
+    c.robot("r4");
+    EXPECT_EQ(c.desk.chosen_online_first({.all = true}), (Texts{"r2", "r4", "r1"}));
+    EXPECT_EQ(c.desk.chosen_online_first({.robots = {"r9", "r4", "r1"}}),
+              (Texts{"r4", "r9", "r1"}));
+    EXPECT_FALSE(c.desk.is_online("r9"));
+}
+
 TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
     Case c;
     const auto order =

@@ -20,6 +20,8 @@
 
 namespace vagus::fleet {
 
+constexpr const char* kStepsUnlessTold = "1,10%,100%";
+
 // "1,10%,100%": how many of so many robots have it after each step. The last step is all.
 Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots);
 

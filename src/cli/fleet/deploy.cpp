@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "cli/output.hpp"
 #include "fleet/rollout.hpp"
 #include "serve/process.hpp"
@@ -12,17 +10,6 @@
 
 namespace vagus::cli {
 namespace {
-
-// Those that are there come first: they say at once whether it is a good version.
-std::vector<std::string> in_order(FleetSession& session, const FleetCall& call) {
-    std::vector<std::string> names = session.desk().chosen(chosen_by(call));
-    const auto is_there = [&](const std::string& name) {
-        const auto found = session.desk().robots().find(name);
-        return found != session.desk().robots().end() && fleet::Operator::is_online(found->second);
-    };
-    std::stable_partition(names.begin(), names.end(), is_there);
-    return names;
-}
 
 int roll_out(FleetSession& session, fleet::Rollout rollout) {
     using Place = fleet::Rollout::Place;
@@ -56,7 +43,8 @@ int roll_out(FleetSession& session, fleet::Rollout rollout) {
 }  // namespace
 
 int deploy(FleetSession& session, const FleetCall& call) {
-    const std::vector<std::string> robots = in_order(session, call);
+    // Those that are there say at once whether it is a good version.
+    const std::vector<std::string> robots = session.desk().chosen_online_first(chosen_by(call));
     if (robots.empty()) return complain("no robot is there that this is for");
     const auto steps = fleet::read_steps(call.steps, robots.size());
     if (!steps.ok()) return complain_of({steps.error().code, "--" + steps.error().what});

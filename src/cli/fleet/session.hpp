@@ -10,6 +10,7 @@
 
 #include "base/result.hpp"
 #include "fleet/operator.hpp"
+#include "fleet/rollout.hpp"
 #include "serve/broker/bell.hpp"
 #include "serve/broker/fleet_options.hpp"
 #include "serve/web/shelf.hpp"
@@ -26,7 +27,7 @@ struct FleetCall {
     fleet::Command command;    // of verbs that want something
     std::vector<int> values;
     std::string variable;
-    std::string project, steps = "1,10%,100%";  // of deploy
+    std::string project, steps = fleet::kStepsUnlessTold;  // of deploy
     serve::ShelfOptions shelf;
     bool rollback = false;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fleet/limits.hpp"
+#include "serve/web/origin.hpp"
 
 namespace vagus::serve {
 
@@ -66,7 +67,7 @@ void FleetDesk::declare_rollout_commands() {
         if (!is_ready(call)) return;
         RolloutDesk::Order order = rollout_order(call);
         order.robots = robots_in_order(call.in);
-        order.steps = call.in.value("steps", kStepsUnlessTold);
+        order.steps = call.in.value("steps", fleet::kStepsUnlessTold);
         rollouts_.begin(std::move(order), now_,
                         [call](const Status& begun) { call.answer(begun); });
     });
@@ -97,8 +98,7 @@ std::string FleetDesk::name_of(const Call& call) const {
 }
 
 RolloutDesk::Order FleetDesk::rollout_order(const Call& call) const {
-    const bool here =
-        host_.starts_with("127.") || host_ == "localhost" || host_ == "::1" || host_ == "[::1]";
+    const bool here = is_loopback(host_) || host_ == "localhost" || host_ == "[::1]";
     return {
         .fleet = view_->fleet(), .target = target_, .broker_is_here = here, .by = name_of(call)};
 }
@@ -107,10 +107,7 @@ RolloutDesk::Order FleetDesk::rollout_order(const Call& call) const {
 std::vector<std::string> FleetDesk::robots_in_order(const Json& in) const {
     fleet::Chosen to{.all = !in.contains("robots")};
     if (!to.all) to.robots = in["robots"].get<std::vector<std::string>>();
-    std::vector<std::string> robots = view_->desk().chosen(to);
-    std::ranges::stable_partition(robots,
-                                  [this](const std::string& one) { return is_online(one); });
-    return robots;
+    return view_->desk().chosen_online_first(to);
 }
 
 Status FleetDesk::open(const FleetOptions& options, Time now) {
@@ -177,8 +174,7 @@ void FleetDesk::begin(const Call& call, fleet::Order order) {
 }
 
 bool FleetDesk::is_online(const std::string& robot) const {
-    const auto known = view_->desk().robots().find(robot);
-    return known != view_->desk().robots().end() && fleet::Operator::is_online(known->second);
+    return view_->desk().is_online(robot);
 }
 
 bool FleetDesk::is_settled(const Waiting& waiting) const {

@@ -30,7 +30,6 @@ using namespace std::chrono_literals;
 
 constexpr Duration kRolloutShownEvery = 200ms;
 constexpr Duration kRolloutKeptEvery = 1s;  // at most, while it runs; its end is kept at once
-constexpr const char* kStepsUnlessTold = "1,10%,100%";
 // Of what is wanted: who acknowledges it.
 constexpr uint64_t kWantNumber = uint64_t{1} << 62;
 
@@ -58,7 +57,7 @@ public:
         std::string fleet = {}, target = {};   // its name, its address
         bool broker_is_here = false;           // on this computer: so are robots
         std::vector<std::string> robots = {};  // in this order
-        std::string steps = kStepsUnlessTold;
+        std::string steps = fleet::kStepsUnlessTold;
         std::string by = {};
     };
     using Done = std::function<void(const Status& begun)>;

@@ -136,6 +136,9 @@ build() {
         { grep -vE '^\[[0-9]+/[0-9]+\] ' "$log" | tail -n 60 >&2; die "$advice. All of it: build/$preset/build.log"; }
 }
 
+# So many places there are for tests beside each other: one that computes takes two (cmake/VagusModule.cmake).
+places_for_tests() { echo $((2 * $(nproc) + 1)); }
+
 # ninja FOLDER [TARGET…] would do nothing.
 is_built() {
     local folder=$1

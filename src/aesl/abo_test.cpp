@@ -5,7 +5,7 @@
 namespace vagus::aesl {
 namespace {
 
-Target rover() {
+Target small_rover() {
     Target target;
     target.name = "rover";
     target.bytecode_size = 600;
@@ -29,12 +29,12 @@ TEST(Abo, NamesAreFedInPairsOfBytes) {
 
 // Fed: 5802 c800 2000, 0100 "id", 0200 "prox", "tick", "math.rand" 00, ffff "dest".
 TEST(Abo, DescriptionIsFedInTheOrderOfTheSpecification) {
-    EXPECT_EQ(crc_of_description(rover()), 0xddcb);
+    EXPECT_EQ(crc_of_description(small_rover()), 0xddcb);
 }
 
 TEST(Abo, BytesAreThoseOfSection53) {
     const std::string bytes =
-        format_abo(rover(), {.product_id = 8, .firmware_version = 14, .node_id = 258}, kProgram);
+        format_abo(small_rover(), {.product_id = 8, .firmware_version = 14, .node_id = 258}, kProgram);
     const std::string expected(
         "ABO\0"
         "\0\0"      // format version
@@ -53,25 +53,25 @@ TEST(Abo, BytesAreThoseOfSection53) {
 
 TEST(Abo, ReadsWhatItWrites) {
     const AboNode node{.product_id = 8, .firmware_version = 14, .node_id = 258};
-    const Abo abo = parse_abo(format_abo(rover(), node, kProgram), "p.abo").value();
+    const Abo abo = parse_abo(format_abo(small_rover(), node, kProgram), "p.abo").value();
     EXPECT_EQ(abo.protocol_version, 5);
     EXPECT_EQ(abo.node, node);
     EXPECT_EQ(abo.bytecode, kProgram);
-    EXPECT_TRUE(check_abo(abo, rover(), "p.abo").ok());
+    EXPECT_TRUE(check_abo(abo, small_rover(), "p.abo").ok());
 }
 
 TEST(Abo, AProgramForAnotherNodeIsRefused) {
-    const Abo abo = parse_abo(format_abo(rover(), {}, kProgram), "p.abo").value();
-    Target other = rover();
+    const Abo abo = parse_abo(format_abo(small_rover(), {}, kProgram), "p.abo").value();
+    Target other = small_rover();
     other.name = "crawler";
     EXPECT_EQ(check_abo(abo, other, "p.abo").error().code, Code::Refused);
-    other = rover();
+    other = small_rover();
     other.variables[1].size = 3;
     EXPECT_FALSE(check_abo(abo, other, "p.abo").ok());
 }
 
 TEST(Abo, EveryCutAndEveryFlippedBitOfTheProgramIsFound) {
-    const std::string whole = format_abo(rover(), {}, kProgram);
+    const std::string whole = format_abo(small_rover(), {}, kProgram);
     for (size_t size = 0; size < whole.size(); ++size)
         EXPECT_FALSE(parse_abo(whole.substr(0, size), "p").ok()) << size;
     EXPECT_FALSE(parse_abo(whole + '\0', "p").ok());
@@ -86,7 +86,7 @@ TEST(Abo, SaysWhatIsWrongWithTheFile) {
     EXPECT_EQ(parse_abo("ABC", "p.abo").error().what,
               "p.abo: this is no .abo file: it does not begin with \"ABO\" and a zero byte; make "
               "one with `vagus compile --format abo`");
-    std::string bytes = format_abo(rover(), {}, kProgram);
+    std::string bytes = format_abo(small_rover(), {}, kProgram);
     bytes[4] = 1;
     EXPECT_EQ(parse_abo(bytes, "p.abo").error().what,
               "p.abo: format version 1 is unknown; this program reads 0");
@@ -94,7 +94,7 @@ TEST(Abo, SaysWhatIsWrongWithTheFile) {
 
 TEST(Abo, TheLongestProgramFits) {
     const std::vector<uint16_t> longest(UINT16_MAX, 0x1234);
-    EXPECT_EQ(parse_abo(format_abo(rover(), {}, longest), "p").value().bytecode, longest);
+    EXPECT_EQ(parse_abo(format_abo(small_rover(), {}, longest), "p").value().bytecode, longest);
 }
 
 }  // namespace

@@ -41,12 +41,6 @@ CommonDefinitions many_events() {
     return common;
 }
 
-std::string repeated(std::string_view text, int count) {
-    std::string all;
-    for (int i = 0; i < count; ++i) all += text;
-    return all;
-}
-
 std::vector<Sample> samples() {
     const std::string store = "motor.left = id\n";  // two words
     return {

@@ -8,12 +8,6 @@
 namespace vagus::aesl {
 namespace {
 
-std::string repeated(std::string_view text, int count) {
-    std::string all;
-    for (int i = 0; i < count; ++i) all += text;
-    return all;
-}
-
 Target roomy() {
     Target target = test_target();
     target.bytecode_size = 65535;

@@ -7,7 +7,7 @@
 namespace vagus::aesl {
 namespace {
 
-Target rover() {
+Target listed_rover() {
     Target target;
     target.name = "rover";
     target.bytecode_size = 600;
@@ -34,9 +34,9 @@ TEST(Listing, ShowsSourceLinesNamesAddressesAndWords) {
         "callsub clear\n"
         "sub clear\n"
         "n = 3000\n";
-    const Compilation done = compile(source, rover(), kCommon, {});
+    const Compilation done = compile(source, listed_rover(), kCommon, {});
     ASSERT_TRUE(done.ok());
-    EXPECT_EQ(listing(done.program, source, rover(), kCommon),
+    EXPECT_EQ(listing(done.program, source, listed_rover(), kCommon),
               "34 of 600 words of bytecode, 6 of 200 words of variables, 2 of 32 words of stack\n"
               "\n"
               "    0  0005            event table of 5 words\n"
@@ -83,19 +83,19 @@ TEST(Listing, ShowsSourceLinesNamesAddressesAndWords) {
 
 TEST(Listing, CountsLinesFromWhereTheSourceStandsInItsFile) {
     const std::string source = "id = 1\n";
-    const Compilation done = compile(source, rover(), kCommon, {});
-    const std::string text = listing(done.program, source, rover(), kCommon, 11);
+    const Compilation done = compile(source, listed_rover(), kCommon, {});
+    const std::string text = listing(done.program, source, listed_rover(), kCommon, 11);
     EXPECT_NE(text.find("      11 | id = 1\n"), text.npos) << text;
 }
 
 TEST(Listing, ShowsAnyWordsWithoutFallingOverThem) {
     Program program;
     program.bytecode = {3, 0xffff, 3, 0xf123, 0xb000, 1};
-    const std::string text = listing(program, "", rover(), kCommon);
+    const std::string text = listing(program, "", listed_rover(), kCommon);
     EXPECT_NE(text.find("no instruction"), text.npos);
     for (uint32_t word = 0; word < 0x10000; ++word) {
         program.bytecode = {1, static_cast<uint16_t>(word), 0xffff, 0xffff};
-        EXPECT_FALSE(listing(program, "", rover(), kCommon).empty());
+        EXPECT_FALSE(listing(program, "", listed_rover(), kCommon).empty());
     }
 }
 

@@ -173,7 +173,7 @@ bool is_text(pugi::xml_node node) {
     return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
 }
 
-struct Range {
+struct NumberRange {
     int64_t low;
     int64_t high;
 };
@@ -264,7 +264,7 @@ private:
         return name;
     }
 
-    int64_t read_number(pugi::xml_node element, const char* key, Range range) {
+    int64_t read_number(pugi::xml_node element, const char* key, NumberRange range) {
         const std::string_view written = element.attribute(key).value();
         const bool has_plus = written.starts_with('+');
         int64_t value = 0;
@@ -281,7 +281,7 @@ private:
     void read_event(pugi::xml_node element) {
         GlobalEvent event{read_name(element), std::nullopt};
         if (element.attribute("size")) {
-            const Range range{0, static_cast<int64_t>(kEventWordsMax)};
+            const NumberRange range{0, static_cast<int64_t>(kEventWordsMax)};
             event.size = static_cast<uint16_t>(read_number(element, "size", range));
         }
         project_.common.events.push_back(std::move(event));

@@ -9,11 +9,11 @@ namespace vagus::aesl {
 namespace {
 
 // The worked example of section 5.2, byte for byte.
-std::string rover() {
+std::string rover_file() {
     return read_file(test::testdata("projects/rover.aesl")).value();
 }
 
-std::string error_of(std::string_view xml) {
+std::string error_of_project(std::string_view xml) {
     const auto parsed = parse_project(xml, "p.aesl");
     return parsed.ok() ? "no error" : parsed.error().what;
 }
@@ -27,7 +27,7 @@ std::string network(std::string_view inside) {
 }
 
 TEST(Project, ReadsTheWorkedExample) {
-    const Project project = parsed(rover());
+    const Project project = parsed(rover_file());
     ASSERT_EQ(project.common.events.size(), 2u);
     EXPECT_EQ(project.common.events[1].name, "status");
     EXPECT_EQ(project.common.events[1].size, 2);
@@ -48,7 +48,7 @@ TEST(Project, ReadsTheWorkedExample) {
 }
 
 TEST(Project, WritingTheWorkedExampleChangesNoByte) {
-    EXPECT_EQ(format_project(parsed(rover())), rover());
+    EXPECT_EQ(format_project(parsed(rover_file())), rover_file());
 }
 
 TEST(Project, ChildrenMayComeInAnyOrder) {
@@ -108,74 +108,74 @@ TEST(Project, WritingIsStableWhateverWasRead) {
 }
 
 TEST(Project, StrictAboutValues) {
-    EXPECT_EQ(error_of(network("<constant name=\"X\"/>")),
+    EXPECT_EQ(error_of_project(network("<constant name=\"X\"/>")),
               "p.aesl:2:1: the <constant> \"X\" has no value; add value=\"…\"");
-    EXPECT_EQ(error_of(network(" <constant name=\"X\" value=\"1a\"/>")),
+    EXPECT_EQ(error_of_project(network(" <constant name=\"X\" value=\"1a\"/>")),
               "p.aesl:2:2: \"value\" of the <constant> \"X\" is \"1a\"; write a whole number from "
               "-2147483648 to 2147483647");
     for (const std::string bad : {"", " 1", "0x10", "1.5", "+1", "99999999999999999999"})
-        EXPECT_NE(error_of(network("<constant name=\"X\" value=\"" + bad + "\"/>")), "no error")
+        EXPECT_NE(error_of_project(network("<constant name=\"X\" value=\"" + bad + "\"/>")), "no error")
             << bad;
-    EXPECT_EQ(error_of(network("<event size=\"1\"/>")),
+    EXPECT_EQ(error_of_project(network("<event size=\"1\"/>")),
               "p.aesl:2:1: a <event> has no name; add name=\"…\"");
-    EXPECT_EQ(error_of(network("<event name=\"e\" size=\"-1\"/>")),
+    EXPECT_EQ(error_of_project(network("<event name=\"e\" size=\"-1\"/>")),
               "p.aesl:2:1: \"size\" of the <event> \"e\" is \"-1\"; write a whole number from 0 to "
               "258");
     EXPECT_EQ(
-        error_of(network("<node name=\"a\" nodeId=\"65536\"/>")),
+        error_of_project(network("<node name=\"a\" nodeId=\"65536\"/>")),
         "p.aesl:2:1: \"nodeId\" of the <node> \"a\" is \"65536\"; write a whole number from 0 "
         "to 65535");
 }
 
 TEST(Project, EventsCarryAtMost258Words) {
-    EXPECT_EQ(error_of(network("<event name=\"e\" size=\"258\"/>")), "no error");
-    EXPECT_NE(error_of(network("<event name=\"e\" size=\"259\"/>")), "no error");
+    EXPECT_EQ(error_of_project(network("<event name=\"e\" size=\"258\"/>")), "no error");
+    EXPECT_NE(error_of_project(network("<event name=\"e\" size=\"259\"/>")), "no error");
 }
 
 TEST(Project, NamesHaveAtMost255Bytes) {
     const auto named = [](size_t size) {
         return network("<event name=\"" + std::string(size, 'e') + "\"/>");
     };
-    EXPECT_EQ(error_of(named(255)), "no error");
-    EXPECT_EQ(error_of(named(256)),
+    EXPECT_EQ(error_of_project(named(255)), "no error");
+    EXPECT_EQ(error_of_project(named(256)),
               "p.aesl:2:1: a <event> has a name of 256 bytes; use at most 255");
 }
 
 TEST(Project, BrokenXmlIsPlacedAndMended) {
     constexpr std::string_view kFix =
         "; in a script write &lt; for < and &amp; for &, or put the script into <![CDATA[ … ]]>";
-    EXPECT_EQ(error_of("<network>\n<node name=\"a\">é & 1</node></network>"),
+    EXPECT_EQ(error_of_project("<network>\n<node name=\"a\">é & 1</node></network>"),
               "p.aesl:2:18: this & begins no character that XML knows" + std::string(kFix));
-    EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x < 2</node></network>"),
+    EXPECT_EQ(error_of_project("<network>\n<node name=\"a\">if x < 2</node></network>"),
               "p.aesl:2:21: this < begins no whole tag" + std::string(kFix));
-    EXPECT_EQ(error_of("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
+    EXPECT_EQ(error_of_project("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
               "p.aesl:2:21:");
-    EXPECT_NE(error_of("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);
-    EXPECT_NE(error_of("<network></nodes>").find("this is not XML"), std::string::npos);
-    EXPECT_EQ(error_of(""), "p.aesl:1:1: the file has no element; a project is a <network>");
-    EXPECT_EQ(error_of("<net/>"), "p.aesl:1:1: the file holds a <net>; a project is a <network>");
-    EXPECT_EQ(error_of("<network/>\n <network/>"),
+    EXPECT_NE(error_of_project("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);
+    EXPECT_NE(error_of_project("<network></nodes>").find("this is not XML"), std::string::npos);
+    EXPECT_EQ(error_of_project(""), "p.aesl:1:1: the file has no element; a project is a <network>");
+    EXPECT_EQ(error_of_project("<net/>"), "p.aesl:1:1: the file holds a <net>; a project is a <network>");
+    EXPECT_EQ(error_of_project("<network/>\n <network/>"),
               "p.aesl:2:2: a second outermost element, <network>; move it into the <network> or "
               "remove it");
-    EXPECT_EQ(error_of("<network/>x"),
+    EXPECT_EQ(error_of_project("<network/>x"),
               "p.aesl:1:1: there is text outside of the <network>; remove it");
-    EXPECT_EQ(error_of("<network>x = 1</network>"),
+    EXPECT_EQ(error_of_project("<network>x = 1</network>"),
               "p.aesl:1:1: the <network> has text outside of its elements; move it into a <node> "
               "or remove it");
 }
 
 TEST(Project, OnlyXmlCharactersAreRead) {
-    EXPECT_EQ(error_of("<network>\n\xff</network>"),
+    EXPECT_EQ(error_of_project("<network>\n\xff</network>"),
               "p.aesl:2:1: this byte is not UTF-8; save the file as UTF-8");
-    EXPECT_EQ(error_of("<network>\x01</network>"),
+    EXPECT_EQ(error_of_project("<network>\x01</network>"),
               "p.aesl:1:10: XML cannot contain a control character; remove it");
-    EXPECT_NE(error_of("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"), "no error");
-    EXPECT_EQ(error_of(std::string_view("<network/>\0", 11)).substr(0, 12), "p.aesl:1:11:");
+    EXPECT_NE(error_of_project("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"), "no error");
+    EXPECT_EQ(error_of_project(std::string_view("<network/>\0", 11)).substr(0, 12), "p.aesl:1:11:");
     for (const std::string bad : {"&#0;", "&#1;", "&#xd800;", "&nbsp;", "&#;", "&#x;", "&lt"})
-        EXPECT_NE(error_of(network("<node name=\"a\">" + bad + "</node>")), "no error") << bad;
-    EXPECT_EQ(error_of(network("<!-- & --><node name=\"a\">&#xe9;<![CDATA[ & ]]></node>")),
+        EXPECT_NE(error_of_project(network("<node name=\"a\">" + bad + "</node>")), "no error") << bad;
+    EXPECT_EQ(error_of_project(network("<!-- & --><node name=\"a\">&#xe9;<![CDATA[ & ]]></node>")),
               "no error");
-    EXPECT_EQ(error_of("\xef\xbb\xbf<network/>"), "no error");
+    EXPECT_EQ(error_of_project("\xef\xbb\xbf<network/>"), "no error");
 }
 
 TEST(Project, DepthAndSizeAreLimited) {
@@ -185,12 +185,12 @@ TEST(Project, DepthAndSizeAreLimited) {
         for (size_t i = 1; i < depth; ++i) xml += "</a>";
         return "<network>" + xml + "</network>";
     };
-    EXPECT_EQ(error_of(nested(kProjectDepthMax)), "no error");
-    EXPECT_NE(error_of(nested(kProjectDepthMax + 1)).find("more than 100 deep"), std::string::npos);
-    EXPECT_NE(error_of(nested(500'000)).find("more than 100 deep"), std::string::npos);
+    EXPECT_EQ(error_of_project(nested(kProjectDepthMax)), "no error");
+    EXPECT_NE(error_of_project(nested(kProjectDepthMax + 1)).find("more than 100 deep"), std::string::npos);
+    EXPECT_NE(error_of_project(nested(500'000)).find("more than 100 deep"), std::string::npos);
     const auto padded = [](size_t size) { return "<network/>" + std::string(size - 10, ' '); };
-    EXPECT_EQ(error_of(padded(kProjectBytesMax)), "no error");
-    EXPECT_NE(error_of(padded(kProjectBytesMax + 1)).find("larger than 8 MB"), std::string::npos);
+    EXPECT_EQ(error_of_project(padded(kProjectBytesMax)), "no error");
+    EXPECT_NE(error_of_project(padded(kProjectBytesMax + 1)).find("larger than 8 MB"), std::string::npos);
 }
 
 TEST(Project, EachNodeGetsAScriptOfItsName) {

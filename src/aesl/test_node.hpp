@@ -11,6 +11,12 @@
 
 namespace vagus::aesl {
 
+inline std::string repeated(std::string_view text, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += text;
+    return all;
+}
+
 // User variables start at address 40, as on the node of the golden vectors.
 inline Target test_target() {
     Target target;

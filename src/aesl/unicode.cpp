@@ -6,12 +6,12 @@
 namespace vagus::aesl {
 namespace {
 
-struct Range {
+struct LetterRange {
     uint32_t first;
     uint32_t last;
 };
 
-constexpr Range kLetters[] = {
+constexpr LetterRange kLetters[] = {
 #define LETTERS(first, last) {first, last},
 #include "aesl/letters.def"
 #undef LETTERS
@@ -55,8 +55,8 @@ CodePoint decode(std::string_view text, size_t offset) {
 
 bool is_letter_or_digit(uint32_t c) {
     if (c < 0x80) return (c >= '0' && c <= '9') || ((c | 0x20) >= 'a' && (c | 0x20) <= 'z');
-    const Range* range = std::lower_bound(std::begin(kLetters), std::end(kLetters), c,
-                                          [](const Range& r, uint32_t v) { return r.last < v; });
+    const LetterRange* range = std::lower_bound(std::begin(kLetters), std::end(kLetters), c,
+                                          [](const LetterRange& r, uint32_t v) { return r.last < v; });
     return range != std::end(kLetters) && range->first <= c;
 }
 

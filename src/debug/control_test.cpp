@@ -17,13 +17,10 @@ aesl::Program two_lines() {
 
 constexpr const char* kUpload =
     "14 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 02 10 65 40 00 00";
-constexpr const char* kRun = "02 00 00 00 03 a0 01 00";
 constexpr const char* kStop = "02 00 00 00 06 a0 01 00";
 constexpr const char* kStep = "02 00 00 00 05 a0 01 00";
-constexpr const char* kGetState = "02 00 00 00 07 a0 01 00";
 constexpr const char* kClear5 = "04 00 00 00 09 a0 01 00 05 00";
 constexpr const char* kSet5 = "04 00 00 00 08 a0 01 00 05 00";
-constexpr const char* kClearAll = "02 00 00 00 0a a0 01 00";
 constexpr const char* kSet5Done = "04 00 01 00 0b 90 05 00 01 00";
 
 std::optional<std::string> error_of(ScriptedBus& bus, RequestId request) {

@@ -7,8 +7,6 @@
 namespace vagus::debug {
 namespace {
 
-constexpr const char* kPresent1 = "02 00 01 00 0c 90 05 00";
-
 TEST(Discovery, AsksEachSecondWhoIsThereAndForOldNodesWhileNobodyIs) {
     ScriptedBus bus;
     const Dumps both = {"02 00 00 00 11 a0 05 00", "02 00 00 00 00 a0 05 00"};

@@ -5,8 +5,6 @@
 namespace vagus::debug {
 namespace {
 
-constexpr const char* kPresent1 = "02 00 01 00 0c 90 05 00";
-
 // One ListNodes, and an answer of each of two nodes that both have the id 1.
 void round_with_two(ScriptedBus& bus) {
     bus.network.list_nodes();

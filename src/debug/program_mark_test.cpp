@@ -10,13 +10,12 @@ namespace {
 
 const std::vector<uint16_t> kWords = {0x0003, 0xffff, 0x0003, 0x1001, 0x4064, 0x0000};
 constexpr const char* kAsk = "06 00 00 00 0b a0 01 00 22 00 02 00";  // two words at 34
-constexpr const char* kGetState = "02 00 00 00 07 a0 01 00";
 
 class ProgramMark : public testing::Test {
 protected:
     // A node that has `_program` behind its three other variables.
     void SetUp() override {
-        bus.node_says("02 00 01 00 0c 90 05 00");
+        bus.node_says(kPresent1);
         describe();
     }
     void describe(const char* last = "_program", uint16_t words = 2) {
@@ -50,7 +49,7 @@ protected:
     }
     void come_back() {
         bus.network.link_lost();
-        bus.node_says("02 00 01 00 0c 90 05 00");
+        bus.node_says(kPresent1);
         describe();
     }
     std::optional<uint32_t> told() { return bus.network.node(1)->told_program; }
@@ -96,7 +95,7 @@ TEST_F(ProgramMark, ThatNeverComesEndsTheRequest) {
     bus.forget();
     (void)bus.network.ask_program(1).value();
     for (int i = 0; i < kFetchTriesMax; i++) {
-        bus.node_says("02 00 01 00 0c 90 05 00");  // it lives
+        bus.node_says(kPresent1);  // it lives
         bus.pass(kFetchRetry);
     }
     ASSERT_EQ(bus.told<RequestDone>().size(), 1u);
@@ -107,7 +106,7 @@ TEST_F(ProgramMark, ThatNeverComesEndsTheRequest) {
 TEST_F(ProgramMark, ThatNeverComesUnaskedIsSaid) {
     for (int i = 0; i < kFetchTriesMax; i++) {
         EXPECT_TRUE(bus.told<ProgramUntold>().empty());
-        bus.node_says("02 00 01 00 0c 90 05 00");  // it lives
+        bus.node_says(kPresent1);  // it lives
         bus.pass(kFetchRetry);
     }
     EXPECT_EQ(bus.told<ProgramUntold>().size(), 1u);
@@ -157,7 +156,7 @@ TEST_F(ProgramMark, IsForgottenWithTheFirstWordOfAnotherProgram) {
 TEST_F(ProgramMark, IsNotAskedOfANodeWithoutIt) {
     for (const auto& [name, words] : {std::pair{"_program", 1}, std::pair{"other", 2}}) {
         bus.network.link_lost();
-        bus.node_says("02 00 01 00 0c 90 05 00");
+        bus.node_says(kPresent1);
         describe(name, static_cast<uint16_t>(words));
         EXPECT_EQ(bus.network.ask_program(1).error().code, Code::NotFound) << name;
     }
@@ -165,9 +164,7 @@ TEST_F(ProgramMark, IsNotAskedOfANodeWithoutIt) {
 
 // ---- after a load ----
 
-constexpr const char* kUpload = "10 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 00 00";
-constexpr const char* kClearAll = "02 00 00 00 0a a0 01 00";
-constexpr const char* kRun = "02 00 00 00 03 a0 01 00";
+constexpr const char* kShortUpload = "10 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 00 00";
 
 class LoadedMark : public ProgramMark {
 protected:
@@ -193,7 +190,7 @@ protected:
 
 TEST_F(LoadedMark, IsAskedForBeforeTheProgramRuns) {
     const RequestId request = load();
-    EXPECT_EQ(bus.sent(), Dumps{kUpload});
+    EXPECT_EQ(bus.sent(), Dumps{kShortUpload});
     bus.state(1, 3, 3);
     EXPECT_EQ(bus.sent(), Dumps{kAsk});
     EXPECT_FALSE(bus.network.node(1)->program.has_value());
@@ -208,7 +205,7 @@ TEST_F(LoadedMark, ThatIsAnotherMakesTheHostLoadAgain) {
     bus.state(1, 3, 3);
     bus.sent();
     tells(mark_of(kWords) ^ 1);
-    EXPECT_EQ(bus.sent(), Dumps{kUpload});
+    EXPECT_EQ(bus.sent(), Dumps{kShortUpload});
     bus.state(1, 3, 3);
     EXPECT_EQ(bus.sent(), Dumps{kAsk});
     tells(mark_of(kWords));
@@ -220,7 +217,7 @@ TEST_F(LoadedMark, ThatIsAnotherMakesTheHostLoadAgain) {
 TEST_F(LoadedMark, ThatStaysAnotherEndsTheLoadAndNothingRuns) {
     const RequestId request = load();
     for (int i = 0; i < kLoadsMax; i++) {
-        EXPECT_EQ(bus.sent(), Dumps{kUpload}) << i;
+        EXPECT_EQ(bus.sent(), Dumps{kShortUpload}) << i;
         bus.state(1, 3, 3);
         EXPECT_EQ(bus.sent(), Dumps{kAsk}) << i;
         EXPECT_EQ(end_of(request), std::nullopt) << i;
@@ -242,7 +239,7 @@ TEST_F(LoadedMark, IsAskedForAgainWhenItWasLost) {
     bus.sent();
     bus.pass(kAskAgain);
     EXPECT_EQ(bus.sent(), Dumps{kAsk});
-    bus.node_says("02 00 01 00 0c 90 05 00");  // it is there, but does not answer
+    bus.node_says(kPresent1);  // it is there, but does not answer
     // Nobody waits for that for ever: it answered all pieces.
     bus.pass(kAnswerWithin - kAskAgain);
     EXPECT_EQ(bus.sent(), (Dumps{kClearAll, kRun}));

@@ -15,6 +15,12 @@ namespace vagus::debug {
 
 using std::chrono::milliseconds;
 
+// Frames of the wire spec, 2.10, from and for node 1.
+inline constexpr const char* kPresent1 = "02 00 01 00 0c 90 05 00";
+inline constexpr const char* kRun = "02 00 00 00 03 a0 01 00";
+inline constexpr const char* kGetState = "02 00 00 00 07 a0 01 00";
+inline constexpr const char* kClearAll = "02 00 00 00 0a a0 01 00";
+
 class ScriptedBus {
 public:
     Network network;

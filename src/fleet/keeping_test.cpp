@@ -11,7 +11,7 @@
 namespace vagus::fleet {
 namespace {
 
-using Standing = keeper::Keeper::State;
+using KeeperState = keeper::Keeper::State;
 using testing::HasSubstr;
 
 // A keeper and one robot at a broker that delivers at once, in order, and keeps what is retained.
@@ -34,7 +34,7 @@ public:
     void serve() {
         connect();
         pass(keeper::kListen + 10s + 1s);
-        ASSERT_EQ(keeping->state(), Standing::Serving);
+        ASSERT_EQ(keeping->state(), KeeperState::Serving);
     }
     void hear(const LinkEvent& event) {
         keeping->hear(event, now);
@@ -97,9 +97,9 @@ TEST(Keeping, AsksAgainWhetherAllIsKnown) {
     Desk desk;
     desk.drops = 1;
     desk.connect();
-    EXPECT_EQ(desk.keeping->state(), Standing::Away);
+    EXPECT_EQ(desk.keeping->state(), KeeperState::Away);
     desk.pass(kAskAgainEvery + 2 * kKeeperTickEvery);
-    EXPECT_EQ(desk.keeping->state(), Standing::Listening);
+    EXPECT_EQ(desk.keeping->state(), KeeperState::Listening);
 }
 
 TEST(Keeping, WhatItDecidesIsRetainedUnderTopicsOfItsOwn) {
@@ -152,7 +152,7 @@ TEST(Keeping, ItDoesNothingBeforeAllThatWasRetainedHasCome) {
     desk.drops = INT_MAX;  // its echoes are under way for long
     desk.connect();
     desk.pass(60s);
-    EXPECT_EQ(desk.keeping->state(), Standing::Away);
+    EXPECT_EQ(desk.keeping->state(), KeeperState::Away);
 }
 
 TEST(Keeping, OneMoreRecordThanMayBeUnderWayWaits) {

@@ -10,8 +10,8 @@ namespace {
 const char* const kFleet = "lab";
 
 // One member, and what a broker would say to it, by hand.
-struct Case {
-    explicit Case(ProjectPart part = {}, const std::string& instance = "i1")
+struct MemberCase {
+    explicit MemberCase(ProjectPart part = {}, const std::string& instance = "i1")
         : member({.fleet = kFleet,
                   .robot = "r1",
                   .instance = instance,
@@ -96,7 +96,7 @@ const ProjectPart kAlarm{.groups = {"red"}, .send = {"alarm"}, .hear = {{"alarm"
 // ---- the name ----
 
 TEST(MemberName, AFreeNameIsTakenWhenItsOwnQuestionComesBack) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     EXPECT_EQ(c.published<Ask>().size(), 1u);
     EXPECT_EQ(c.connections(), Texts{});
@@ -108,7 +108,7 @@ TEST(MemberName, AFreeNameIsTakenWhenItsOwnQuestionComesBack) {
 }
 
 TEST(MemberName, OneThatAnswersKeepsIt) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     c.connection("online", "i2");
     c.question("i1");
@@ -122,7 +122,7 @@ TEST(MemberName, OneThatAnswersKeepsIt) {
 }
 
 TEST(MemberName, OneThatDoesNotAnswerLosesIt) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     c.connection("online", "i2");
     c.question("i1");
@@ -135,7 +135,7 @@ TEST(MemberName, OneThatDoesNotAnswerLosesIt) {
 
 TEST(MemberName, OneThatIsLostOrOfflineLeavesItFree) {
     for (const char* const state : {"lost", "offline"}) {
-        Case c;
+        MemberCase c;
         c.hear(Connected{});
         c.connection(state, "i2");
         c.question("i1");
@@ -144,7 +144,7 @@ TEST(MemberName, OneThatIsLostOrOfflineLeavesItFree) {
 }
 
 TEST(MemberName, ItsHolderAnswersOthersAndNotItself) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.question("i1");
     EXPECT_TRUE(c.published<Answer>().empty());
@@ -154,22 +154,22 @@ TEST(MemberName, ItsHolderAnswersOthersAndNotItself) {
 }
 
 TEST(MemberName, AnothersWillIsOverwritten) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.connection("lost", "i2");
     EXPECT_EQ(c.connections(), Texts{"online"});
 }
 
 TEST(MemberName, AWillOfItsOwnThatComesLateIsOverwritten) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.connection("lost", "i1");
     EXPECT_EQ(c.connections(), Texts{"online"});
 }
 
 TEST(MemberName, OfTwoThatClaimAtOnceTheBrokersLastWins) {
-    Case first, last({}, "i2");
-    for (Case* c : {&first, &last}) {
+    MemberCase first, last({}, "i2");
+    for (MemberCase* c : {&first, &last}) {
         c->hear(Connected{});
         c->question(c == &first ? "i1" : "i2");
         c->connection("online", "i1");
@@ -180,7 +180,7 @@ TEST(MemberName, OfTwoThatClaimAtOnceTheBrokersLastWins) {
 }
 
 TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     c.connection("online", "i2");
     c.name_answer("i2");
@@ -191,7 +191,7 @@ TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
 }
 
 TEST(MemberName, ABrokerThatHidesOurOwnMessagesIsNamed) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     c.tick(kNameAnswerWithin);
     EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
@@ -199,11 +199,11 @@ TEST(MemberName, ABrokerThatHidesOurOwnMessagesIsNamed) {
 }
 
 TEST(MemberName, OfflineIsSaidByItsHolderAlone) {
-    Case c;
+    MemberCase c;
     c.member.leave();
     c.take();
     EXPECT_EQ(c.connections(), Texts{});
-    Case holder;
+    MemberCase holder;
     holder.hold();
     holder.member.leave();
     holder.take();
@@ -213,7 +213,7 @@ TEST(MemberName, OfflineIsSaidByItsHolderAlone) {
 // ---- without a broker ----
 
 TEST(MemberAlone, ARobotStopsAfterFiveSeconds) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.now = 10s;
     c.hear(Lost{"gone"});
@@ -226,13 +226,13 @@ TEST(MemberAlone, ARobotStopsAfterFiveSeconds) {
 }
 
 TEST(MemberAlone, AlsoOneThatWasNeverInTheFleet) {
-    Case c;
+    MemberCase c;
     c.tick(kBrokerLostAfter);
     EXPECT_EQ(c.all<StopAlone>().size(), 1u);
 }
 
 TEST(MemberAlone, OneThatIsBackInTimeGoesOn) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.hear(Lost{"gone"});
     c.now = 4s;
@@ -242,14 +242,14 @@ TEST(MemberAlone, OneThatIsBackInTimeGoesOn) {
 }
 
 TEST(MemberAlone, TheProjectMaySayThatItContinues) {
-    Case c({.broker_lost = BrokerLost::Continue});
+    MemberCase c({.broker_lost = BrokerLost::Continue});
     c.tick(kBrokerLostAfter);
     EXPECT_TRUE(c.all<StopAlone>().empty());
     EXPECT_EQ(c.all<Say>().size(), 1u);
 }
 
 TEST(MemberAlone, TheSameTroubleIsToldOnce) {
-    Case c;
+    MemberCase c;
     c.hear(Lost{"refused"});
     c.hear(Lost{"refused"});
     EXPECT_EQ(c.all<Say>().size(), 1u);
@@ -258,7 +258,7 @@ TEST(MemberAlone, TheSameTroubleIsToldOnce) {
 // ---- events ----
 
 TEST(MemberEvents, WhatIsListedIsSent) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.member.emitted("alarm", {1, 2}, 0s);
     c.member.emitted("other", {}, 0s);
@@ -273,7 +273,7 @@ TEST(MemberEvents, WhatIsListedIsSent) {
 }
 
 TEST(MemberEvents, WhatIsListedIsHeardOnce) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.event("r2", {1, 3, {}, {5}});
     c.event("r2", {1, 3, {}, {5}});
@@ -285,21 +285,21 @@ TEST(MemberEvents, WhatIsListedIsHeardOnce) {
 }
 
 TEST(MemberEvents, ItsOwnAreNeverHeard) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.event("r1", {1, 7, {}, {}});
     EXPECT_TRUE(c.all<EmitOnBus>().empty());
 }
 
 TEST(MemberEvents, NothingGoesRound) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.event("r2", {1, 3, {}, {}});
     EXPECT_TRUE(c.published<Event>().empty());
 }
 
 TEST(MemberEvents, OnlyThoseOfTheGroupThatIsNamed) {
-    Case c({.hear = {{"alarm", "red"}}});
+    MemberCase c({.hear = {{"alarm", "red"}}});
     c.hold();
     c.event("r2", {1, 3, {"blue"}, {}});
     EXPECT_TRUE(c.all<EmitOnBus>().empty());
@@ -308,7 +308,7 @@ TEST(MemberEvents, OnlyThoseOfTheGroupThatIsNamed) {
 }
 
 TEST(MemberEvents, AtMostTwentyASecondAreSentAndTwoHundredInTenSecondsHeard) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     for (int64_t i = 1; i <= 21; ++i) {
         c.member.emitted("alarm", {}, 0s);
@@ -325,7 +325,7 @@ TEST(MemberEvents, AtMostTwentyASecondAreSentAndTwoHundredInTenSecondsHeard) {
 // A broker keeps what comes for a member that was cut off, and gives it as soon as it is there
 // again: before it is known whether the name is still ours.
 TEST(MemberEvents, ThoseThatComeBeforeTheNameIsOursAreHeardThen) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.hear(Lost{"gone"});
     c.hear(Connected{});
@@ -341,7 +341,7 @@ TEST(MemberEvents, ThoseThatComeBeforeTheNameIsOursAreHeardThen) {
 }
 
 TEST(MemberEvents, ThoseThatAreTooManyOrTooOldBeforeTheNameIsOursAreNot) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hear(Connected{});
     for (int64_t i = 0; i <= static_cast<int64_t>(kEarlyMax); ++i)
         c.event("r2", {i + 1, 3, {}, {}});
@@ -352,7 +352,7 @@ TEST(MemberEvents, ThoseThatAreTooManyOrTooOldBeforeTheNameIsOursAreNot) {
 }
 
 TEST(MemberEvents, ThoseOfACutLinkComeLaterInOrder) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.hear(Lost{"gone"});
     c.member.emitted("alarm", {1}, 0s);
@@ -369,7 +369,7 @@ TEST(MemberEvents, ThoseOfACutLinkComeLaterInOrder) {
 }
 
 TEST(MemberEvents, MoreArgumentsThanABusCarriesAreLeftOut) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     c.member.emitted("alarm", std::vector<int16_t>(kWordsMax), 0s);
     c.member.emitted("alarm", std::vector<int16_t>(kWordsMax + 1), 0s);
@@ -381,7 +381,7 @@ TEST(MemberEvents, MoreArgumentsThanABusCarriesAreLeftOut) {
 // ---- state and variables ----
 
 TEST(MemberState, ComesOnAChangeAtMostFiveTimesASecond) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.member.show({.state = "running"}, 100ms);
     c.tick(100ms);
@@ -395,7 +395,7 @@ TEST(MemberState, ComesOnAChangeAtMostFiveTimesASecond) {
 }
 
 TEST(MemberState, ComesEveryTwoSecondsWithoutAChange) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.tick(kStateEveryMax - 1us);
     EXPECT_TRUE(c.published<State>().empty());
@@ -404,13 +404,13 @@ TEST(MemberState, ComesEveryTwoSecondsWithoutAChange) {
 }
 
 TEST(MemberState, OnlyTheHolderShowsOne) {
-    Case c;
+    MemberCase c;
     c.tick(kStateEveryMax);
     EXPECT_TRUE(c.published<State>().empty());
 }
 
 TEST(MemberState, VariablesComeWhenTheyChangeAtMostFiveTimesASecond) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.member.changed("drive", "speed", {1});
     c.tick(0s);
@@ -433,7 +433,7 @@ Command start(const std::string& id, int64_t deadline, int64_t epoch = 7) {
 }
 
 TEST(MemberCommands, AreDoneOnceAndAnsweredAgain) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.command(start("c1", 3000));
     ASSERT_EQ(c.all<Obey>().size(), 1u);
@@ -449,7 +449,7 @@ TEST(MemberCommands, AreDoneOnceAndAnsweredAgain) {
 }
 
 TEST(MemberCommands, LateOnesAreRefusedByTheRobotsOwnClock) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.now = 5s;
     c.command(start("in time", 5000));
@@ -468,14 +468,14 @@ TEST(MemberCommands, LateOnesAreRefusedByTheRobotsOwnClock) {
 }
 
 TEST(MemberCommands, StopHasNoDeadline) {
-    Case c;
+    MemberCase c;
     c.hold();
     c.command({.verb = "stop", .id = "s1", .reply = "op"});
     EXPECT_EQ(c.all<Obey>().size(), 1u);
 }
 
 TEST(MemberCommands, OnlyStopGoesToMany) {
-    Case c(kAlarm);
+    MemberCase c(kAlarm);
     c.hold();
     const auto send = [&](const std::string& group, const std::string& verb, const char* id) {
         Command command = start(id, 1000);
@@ -492,7 +492,7 @@ TEST(MemberCommands, OnlyStopGoesToMany) {
 }
 
 TEST(MemberCommands, StopForAllIsObeyedByOneThatStaysOut) {
-    Case c;
+    MemberCase c;
     c.hear(Connected{});
     c.connection("online", "i2");
     c.name_answer("i2");
@@ -504,7 +504,7 @@ TEST(MemberCommands, StopForAllIsObeyedByOneThatStaysOut) {
 }
 
 TEST(MemberCommands, TheLastOnesAreRemembered) {
-    Case c;
+    MemberCase c;
     c.hold();
     const auto stop = [&](size_t number) {
         c.command({.verb = "stop", .id = std::to_string(number), .reply = "op"});

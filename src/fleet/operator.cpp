@@ -7,7 +7,7 @@
 namespace vagus::fleet {
 namespace {
 
-constexpr const char* kEcho = "echo";         // id of a message of our own that comes back
+constexpr const char* kEchoId = "echo";         // id of a message of our own that comes back
 constexpr uint64_t kEchoNumber = UINT64_MAX;  // of its post: unlike that of any order
 
 }  // namespace
@@ -46,7 +46,7 @@ void Operator::on(const Connected&) {
 void Operator::send_echo() {
     echo_at_ = now_ + kAskAgainEvery;
     publish({.kind = Kind::Command, .robot = options_.name, .name = "stop"},
-            Command{.verb = "stop", .id = kEcho, .reply = options_.name}, kEchoNumber);
+            Command{.verb = "stop", .id = kEchoId, .reply = options_.name}, kEchoNumber);
 }
 
 // What was heard before says nothing of now.

@@ -5,7 +5,7 @@
 namespace vagus::fleet {
 namespace {
 
-struct Case {
+struct OperatorCase {
     void hear(const LinkEvent& event) {
         desk.hear(event, now);
         take();
@@ -56,7 +56,7 @@ struct Case {
 using Texts = std::vector<std::string>;
 
 TEST(Operator, KnowsAllOnceItsOwnMessageIsBack) {
-    Case c;
+    OperatorCase c;
     c.hear(Connected{});
     EXPECT_EQ(c.topics(), Texts{"vagus/1/lab/cmd/desk/stop"});
     c.robot("r1");
@@ -70,7 +70,7 @@ TEST(Operator, KnowsAllOnceItsOwnMessageIsBack) {
 
 // A broker drops what does not fit into the queue of a client: of a large fleet, our own message.
 TEST(Operator, ItsOwnMessageIsRepeatedUntilItIsBack) {
-    Case c;
+    OperatorCase c;
     c.hear(Connected{});
     EXPECT_EQ(c.desk.next_tick(), kAskAgainEvery);
     c.tick(kAskAgainEvery - 1us);
@@ -84,7 +84,7 @@ TEST(Operator, ItsOwnMessageIsRepeatedUntilItIsBack) {
 }
 
 TEST(Operator, ThoseThatAreOnlineComeFirst) {
-    Case c;
+    OperatorCase c;
     c.robot("r1", "lost");
     c.robot("r2");
     c.robot("r3", "offline");
@@ -96,7 +96,7 @@ TEST(Operator, ThoseThatAreOnlineComeFirst) {
 }
 
 TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
-    Case c;
+    OperatorCase c;
     const auto order =
         c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.all = true}}, 0s);
     c.robot("r1");
@@ -123,7 +123,7 @@ TEST(Operator, StopIsRepeatedUntilEverybodyHasAnswered) {
 }
 
 TEST(Operator, StopForAGroupAndForOne) {
-    Case c;
+    OperatorCase c;
     const auto order =
         c.desk.begin({.command = {.verb = "stop", .id = "s"}, .to = {.group = "red"}}, 0s);
     c.robot("r1", "online", "red");
@@ -139,7 +139,7 @@ TEST(Operator, StopForAGroupAndForOne) {
 }
 
 TEST(Operator, OtherCommandsGoToEachWithItsOwnDeadlineAndOnce) {
-    Case c;
+    OperatorCase c;
     const auto order =
         c.desk.begin({.command = {.verb = "start", .id = "c"}, .to = {.all = true}}, 0s);
     c.robot("r1");
@@ -161,7 +161,7 @@ TEST(Operator, OtherCommandsGoToEachWithItsOwnDeadlineAndOnce) {
 }
 
 TEST(Operator, SeveralOrdersAreUnderWayTogether) {
-    Case c;
+    OperatorCase c;
     c.robot("r1");
     c.robot("r2");
     c.all_is_known();
@@ -186,7 +186,7 @@ TEST(Operator, SeveralOrdersAreUnderWayTogether) {
 }
 
 TEST(Operator, ABrokerThatDoesNotPassAnOrderOnIsTheReason) {
-    Case c;
+    OperatorCase c;
     c.robot("r1");
     c.all_is_known();
     c.fresh("r1", 100);
@@ -202,7 +202,7 @@ TEST(Operator, ABrokerThatDoesNotPassAnOrderOnIsTheReason) {
 }
 
 TEST(Operator, KnowsWhyItsOwnMessageDoesNotComeBack) {
-    Case c;
+    OperatorCase c;
     c.hear(Connected{});
     ASSERT_EQ(c.posts.size(), 1u);
     c.hear(Acknowledged{c.posts[0].number, "Not authorized"});
@@ -211,7 +211,7 @@ TEST(Operator, KnowsWhyItsOwnMessageDoesNotComeBack) {
 }
 
 TEST(Operator, WhatWasHeardBeforeALossIsNotFresh) {
-    Case c;
+    OperatorCase c;
     c.robot("r1");
     c.fresh("r1", 100);
     ASSERT_TRUE(c.desk.all_are_fresh());
@@ -221,7 +221,7 @@ TEST(Operator, WhatWasHeardBeforeALossIsNotFresh) {
 }
 
 TEST(Operator, ARobotThatIsForgottenIsNotKnown) {
-    Case c;
+    OperatorCase c;
     c.robot("r1");
     c.hear(TakenBack{{.kind = Kind::State, .robot = "r1"}});
     EXPECT_EQ(c.desk.robots().size(), 1u) << "its connection goes last";
@@ -230,7 +230,7 @@ TEST(Operator, ARobotThatIsForgottenIsNotKnown) {
 }
 
 TEST(Operator, KnowsOnlySoManyRobots) {
-    Case c;
+    OperatorCase c;
     for (size_t i = 0; i <= kRobotsMax; ++i) {
         c.hear({.kind = Kind::Connection, .robot = std::to_string(i)}, Connection{"online", "i", 7},
                true);

@@ -20,9 +20,9 @@ TEST(Steps, AreNumbersOrPercentAndEndWithAll) {
     }
 }
 
-class Case {
+class RolloutCase {
 public:
-    Case() : rollout({"lab", kWant, {"r1", "r2", "r3"}, {1, 3}, 60s}) { pass(0s); }
+    RolloutCase() : rollout({"lab", kWant, {"r1", "r2", "r3"}, {1, 3}, 60s}) { pass(0s); }
 
     static inline const Want kWant{7, "ab", "https://desk/x", false};
 
@@ -58,7 +58,7 @@ public:
 };
 
 TEST(Rollout, TheNextStepFollowsWhenTheFirstIsWell) {
-    Case c;
+    RolloutCase c;
     EXPECT_EQ(c.wanted(), Texts{"r1"});
     c.tells("r1", "taken");
     c.tells("r1", "started");
@@ -76,7 +76,7 @@ TEST(Rollout, TheNextStepFollowsWhenTheFirstIsWell) {
 
 TEST(Rollout, TheFirstThatIsNotWellStopsIt) {
     for (const char* const result : {"refused", "rolled_back", "waiting", "stopped"}) {
-        Case c;
+        RolloutCase c;
         c.tells("r1", result);
         EXPECT_TRUE(c.rollout.is_over());
         EXPECT_EQ(c.line(0), "failed: " + std::string(result) + ": why");
@@ -86,7 +86,7 @@ TEST(Rollout, TheFirstThatIsNotWellStopsIt) {
 }
 
 TEST(Rollout, AFaultWithinThreeSecondsIsNotWell) {
-    Case c;
+    RolloutCase c;
     c.tells("r1", "started");
     c.is("r1", "running");
     c.is("r1", "fault");
@@ -96,7 +96,7 @@ TEST(Rollout, AFaultWithinThreeSecondsIsNotWell) {
 }
 
 TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
-    Case c;
+    RolloutCase c;
     c.pass(60s - 1us);
     EXPECT_FALSE(c.rollout.is_over());
     c.pass(1us);
@@ -105,7 +105,7 @@ TEST(Rollout, WhoDoesNotAnswerStopsItToo) {
 }
 
 TEST(Rollout, WhoIsBackLaterIsWellAndTheRolloutStaysOver) {
-    Case c;
+    RolloutCase c;
     c.pass(60s);
     EXPECT_TRUE(c.rollout.is_over());
     EXPECT_EQ(c.wanted(), Texts{"r1"});
@@ -120,7 +120,7 @@ TEST(Rollout, WhoIsBackLaterIsWellAndTheRolloutStaysOver) {
 }
 
 TEST(Rollout, OneThatIsStoppedGoesToNobodyElse) {
-    Case c;
+    RolloutCase c;
     EXPECT_EQ(c.wanted(), Texts{"r1"});
     c.rollout.stop();
     c.tells("r1", "started");
@@ -133,14 +133,14 @@ TEST(Rollout, OneThatIsStoppedGoesToNobodyElse) {
 TEST(Rollout, WhoRefusedItDoesNotHaveIt) {
     for (const auto& [result, has] : {std::pair("refused", false), std::pair("rolled_back", false),
                                       std::pair("waiting", true), std::pair("stopped", true)}) {
-        Case c;
+        RolloutCase c;
         c.tells("r1", result);
         EXPECT_EQ(c.rollout.table()[0].has, has) << result;
     }
 }
 
 TEST(Rollout, ARobotWhoseConditionIsNotTrueYetIsWaitedFor) {
-    Case c;
+    RolloutCase c;
     c.pass(20s);
     c.lacks("r1", "not_yet", "battery = 12");
     EXPECT_EQ(c.line(0), "started: battery = 12");
@@ -152,7 +152,7 @@ TEST(Rollout, ARobotWhoseConditionIsNotTrueYetIsWaitedFor) {
 }
 
 TEST(Rollout, AConditionThatIsTrueAtOnceDoesNotShortenTheThreeSeconds) {
-    Case c;
+    RolloutCase c;
     c.lacks("r1", "not_yet", "not looked at");
     c.lacks("r1", "well");
     c.pass(kHealthyFor - 1us);
@@ -162,7 +162,7 @@ TEST(Rollout, AConditionThatIsTrueAtOnceDoesNotShortenTheThreeSeconds) {
 }
 
 TEST(Rollout, ARobotWhoseConditionIsNotTrueInTimeStopsIt) {
-    Case c;
+    RolloutCase c;
     c.lacks("r1", "not_yet", "battery = 12");
     c.lacks("r1", "not_yet", "battery = 13");
     EXPECT_EQ(c.rollout.next_tick(), 60s);
@@ -176,14 +176,14 @@ TEST(Rollout, ARobotWhoseConditionIsNotTrueInTimeStopsIt) {
 }
 
 TEST(Rollout, AFaultCountsWhateverTheConditionSays) {
-    Case c;
+    RolloutCase c;
     c.lacks("r1", "not_yet", "battery = 12");
     c.is("r1", "fault");
     EXPECT_EQ(c.line(0), "failed: a fault: stuck");
 }
 
 TEST(Rollout, WhatCameOfAnotherOneSaysNothing) {
-    Case c;
+    RolloutCase c;
     c.tells("r1", "started", 6);
     c.pass(kHealthyFor);
     EXPECT_EQ(c.line(0), "wanted");

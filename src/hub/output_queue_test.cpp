@@ -7,7 +7,7 @@
 namespace vagus::hub {
 namespace {
 
-constexpr uint16_t kEvent = 7;
+constexpr uint16_t kEventType = 7;
 constexpr uint16_t kReply = 0x9005;
 
 std::vector<uint8_t> frame(uint16_t type, uint16_t number, uint16_t payload = 2) {
@@ -44,7 +44,7 @@ void fill(OutputQueue& queue, uint16_t type) {
 
 TEST(OutputQueue, GivesTheBytesInTheOrderTheyCame) {
     OutputQueue queue;
-    queue.push(frame(kEvent, 1, 0));
+    queue.push(frame(kEventType, 1, 0));
     queue.push(frame(kReply, 2, 1));
     const std::vector<uint8_t> expected{0, 0, 1, 0, 7, 0, 1, 0, 2, 0, 5, 0x90, 0};
     EXPECT_EQ(queue.frames(), 2u);
@@ -53,8 +53,8 @@ TEST(OutputQueue, GivesTheBytesInTheOrderTheyCame) {
 
 TEST(OutputQueue, AFrameOfWhichAPartHasLeftStillCounts) {
     OutputQueue queue;
-    queue.push(frame(kEvent, 1));  // 8 bytes
-    queue.push(frame(kEvent, 2));
+    queue.push(frame(kEventType, 1));  // 8 bytes
+    queue.push(frame(kEventType, 2));
     EXPECT_EQ(queue.batch().size(), 16u);
     queue.sent(3);
     EXPECT_EQ(queue.frames(), 2u);
@@ -67,10 +67,10 @@ TEST(OutputQueue, AFrameOfWhichAPartHasLeftStillCounts) {
 
 TEST(OutputQueue, OneFrameAboveTheLimitDropsTheOldestEventsInOnePass) {
     OutputQueue queue;
-    fill(queue, kEvent);
+    fill(queue, kEventType);
     EXPECT_EQ(queue.frames(), kQueueFramesMax);
     EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
-    queue.push(frame(kEvent, 0xabc));
+    queue.push(frame(kEventType, 0xabc));
     EXPECT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
     const std::vector<uint16_t> left = sources(queue);
     EXPECT_EQ(left.size(), kQueueFramesMax - kDropFramesAtOnce + 1);
@@ -82,21 +82,21 @@ TEST(OutputQueue, OneByteAboveTheLimitDropsToo) {
     OutputQueue queue;
     size_t bytes = 0;
     for (; bytes + wire::kFrameMax <= kQueueBytesMax; bytes += wire::kFrameMax) {
-        queue.push(frame(kEvent, 1, wire::kPayloadMax));
+        queue.push(frame(kEventType, 1, wire::kPayloadMax));
     }
     const size_t rest = kQueueBytesMax - bytes;  // 262144 % 522 = 100
     ASSERT_EQ(rest, 100u);
-    queue.push(frame(kEvent, 2, static_cast<uint16_t>(rest - wire::kHeaderSize)));
+    queue.push(frame(kEventType, 2, static_cast<uint16_t>(rest - wire::kHeaderSize)));
     EXPECT_EQ(queue.dropped(), (Dropped{0, 0}));
     EXPECT_EQ(queue.bytes(), kQueueBytesMax);
-    queue.push(frame(kEvent, 3, 0));
+    queue.push(frame(kEventType, 3, 0));
     EXPECT_EQ(queue.dropped(), (Dropped{63, 0}));  // 63 * 522 >= 32768 > 62 * 522
 }
 
 TEST(OutputQueue, CommandsAndRepliesOutliveEventsAndKeepTheirOrder) {
     OutputQueue queue;
     for (size_t i = 0; i < kQueueFramesMax; ++i) {
-        queue.push(frame(i % 64 == 0 ? kReply : kEvent, static_cast<uint16_t>(i / 64)));
+        queue.push(frame(i % 64 == 0 ? kReply : kEventType, static_cast<uint16_t>(i / 64)));
     }
     for (int i = 0; i < 3; ++i) queue.push(frame(kReply, static_cast<uint16_t>(1000 + i)));
     EXPECT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
@@ -130,7 +130,7 @@ std::vector<uint8_t> command(Type type, uint16_t node, uint16_t number) {
 
 TEST(OutputQueue, StopAndWhatMakesANodeSafePassAll) {
     OutputQueue queue;
-    queue.push(frame(kEvent, 1));
+    queue.push(frame(kEventType, 1));
     queue.push(frame(kReply, 2));
     queue.push(command(Type::GetVariables, 9, 3));
     queue.push(command(Type::Stop, 9, 4));
@@ -191,16 +191,16 @@ TEST(OutputQueue, WithoutEventsToDropTheNewcomerGoes) {
     OutputQueue queue;
     fill(queue, kReply);
     queue.push(frame(kReply, 0xabc));
-    queue.push(frame(kEvent, 0xabd));
+    queue.push(frame(kEventType, 0xabd));
     EXPECT_EQ(queue.dropped(), (Dropped{1, 1}));
     EXPECT_EQ(sources(queue).size(), kQueueFramesMax);
 }
 
 TEST(OutputQueue, AReplyTakesThePlaceOfTheLastEventButAnEventDoesNot) {
     OutputQueue queue;
-    queue.push(frame(kEvent, 1));
+    queue.push(frame(kEventType, 1));
     for (size_t i = 1; i < kQueueFramesMax; ++i) queue.push(frame(kReply, 2));
-    queue.push(frame(kEvent, 3));
+    queue.push(frame(kEventType, 3));
     EXPECT_EQ(queue.dropped(), (Dropped{1, 0}));
     queue.push(frame(kReply, 4));
     EXPECT_EQ(queue.dropped(), (Dropped{2, 0}));
@@ -212,12 +212,12 @@ TEST(OutputQueue, AReplyTakesThePlaceOfTheLastEventButAnEventDoesNot) {
 // A batch of 8-byte frames ends with the 512th: 4096 bytes. It stays as it is.
 TEST(OutputQueue, TheBatchThatIsOnItsWayIsNeverDroppedNorPassed) {
     OutputQueue queue;
-    fill(queue, kEvent);
+    fill(queue, kEventType);
     const auto batch = queue.batch();
     ASSERT_EQ(batch.size(), kBatchBytes);
     const std::vector<uint8_t> begun(batch.begin(), batch.end());
     queue.sent(3);
-    queue.push(frame(kEvent, 0xabc));
+    queue.push(frame(kEventType, 0xabc));
     queue.push(frame(kReply, 0xabd));
     ASSERT_EQ(queue.dropped(), (Dropped{kDropFramesAtOnce, 0}));
     const auto rest = queue.batch();
@@ -235,7 +235,7 @@ TEST(OutputQueue, ManyRoundsOfFillingAndPartialSendingLoseNothing) {
     OutputQueue queue;
     std::vector<uint8_t> in, out;
     for (uint16_t round = 0; round < 5000; ++round) {
-        const auto bytes = frame(kEvent, round, static_cast<uint16_t>(round % 517));
+        const auto bytes = frame(kEventType, round, static_cast<uint16_t>(round % 517));
         in.insert(in.end(), bytes.begin(), bytes.end());
         queue.push(bytes);
         const auto batch = queue.batch();
@@ -251,7 +251,7 @@ TEST(OutputQueue, ManyRoundsOfFillingAndPartialSendingLoseNothing) {
 
 TEST(OutputQueue, SixtyFourEventsKeepTheirPlaceBeforeAMessage) {
     OutputQueue queue;
-    for (uint16_t i = 0; i < kEventsAhead; ++i) queue.push(frame(kEvent, i));
+    for (uint16_t i = 0; i < kEventsAhead; ++i) queue.push(frame(kEventType, i));
     queue.push(frame(kReply, 1000));
     const std::vector<uint16_t> order = sources(queue);
     EXPECT_EQ(order.front(), 0);
@@ -260,10 +260,10 @@ TEST(OutputQueue, SixtyFourEventsKeepTheirPlaceBeforeAMessage) {
 
 TEST(OutputQueue, MessagesPassAFloodButNoOtherMessage) {
     OutputQueue queue;
-    for (uint16_t i = 0; i < 5000; ++i) queue.push(frame(kEvent, i));
+    for (uint16_t i = 0; i < 5000; ++i) queue.push(frame(kEventType, i));
     for (uint16_t i = 0; i < 3; ++i) {
         queue.push(frame(kReply, static_cast<uint16_t>(6000 + i)));
-        queue.push(frame(kEvent, static_cast<uint16_t>(5000 + i)));
+        queue.push(frame(kEventType, static_cast<uint16_t>(5000 + i)));
     }
     std::vector<uint16_t> expected = {6000, 6001, 6002};
     for (uint16_t i = 0; i < 5003; ++i) expected.push_back(i);
@@ -273,7 +273,7 @@ TEST(OutputQueue, MessagesPassAFloodButNoOtherMessage) {
 // The one that the kernel has not taken yet is the most that a command waits for.
 TEST(OutputQueue, AMessageLeavesWithTheNextBatch) {
     OutputQueue queue;
-    fill(queue, kEvent);
+    fill(queue, kEventType);
     queue.sent(queue.batch().size());
     queue.push(frame(kReply, 7));
     const auto next = queue.batch();
@@ -296,7 +296,7 @@ TEST(OutputQueue, FewFramesLeaveInTheirOrderHoweverTheyAreMixed) {
     OutputQueue queue;
     std::vector<uint16_t> expected;
     for (uint16_t i = 0; i < 100; ++i) {
-        queue.push(frame(i % 3 == 0 ? kReply : kEvent, i));
+        queue.push(frame(i % 3 == 0 ? kReply : kEventType, i));
         if (i % 2 == 1) continue;
         wire::Frame out;
         ASSERT_TRUE(queue.pop(out));

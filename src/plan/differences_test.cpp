@@ -141,19 +141,19 @@ TEST(Differences, WhatDoesNotFitIsNotApplied) {
 
 // ---- random pairs ----
 
-class Maker {
+class PairMaker {
 public:
-    explicit Maker(uint64_t seed) : random_(seed) {}
+    explicit PairMaker(uint64_t seed) : random_(seed) {}
 
     std::string plan() {
         std::string text = "{ \"format\": \"vagus-plan/1\", \"name\": \"P\"";
         if (below(2) == 0) text += fmt::format(", \"help\": \"help {}\"", below(2));
         if (below(2) == 0) text += ", \"toolboxes\": [\"a\"]";
-        text += ", \"configuration\": {" + list(&Maker::variable, "v") + "}";
+        text += ", \"configuration\": {" + list(&PairMaker::variable, "v") + "}";
         text += fmt::format(", \"start\": {{ \"actor\": \"a{}\", \"supervisors\": {{{}}} }}",
-                            below(3), list(&Maker::supervisor, "g"));
-        text += ", \"actors\": {" + list(&Maker::actor, "a") + "}";
-        if (below(2) == 0) text += ", \"layout\": {" + list(&Maker::spot, "a") + "}";
+                            below(3), list(&PairMaker::supervisor, "g"));
+        text += ", \"actors\": {" + list(&PairMaker::actor, "a") + "}";
+        if (below(2) == 0) text += ", \"layout\": {" + list(&PairMaker::spot, "a") + "}";
         if (below(3) == 0) text += fmt::format(", \"x\": {{ \"k\": [{}] }}", below(2));
         return text + " }";
     }
@@ -162,7 +162,7 @@ private:
     size_t below(uint64_t bound) { return static_cast<size_t>(random_.below(bound)); }
 
     // Some of six names, in any order.
-    std::string list(std::string (Maker::*one)(), const std::string& prefix) {
+    std::string list(std::string (PairMaker::*one)(), const std::string& prefix) {
         std::vector<int> names = {0, 1, 2, 3, 4, 5};
         for (size_t i = names.size(); i > 1; --i) std::swap(names[i - 1], names[below(i)]);
         names.resize(below(7));
@@ -183,15 +183,15 @@ private:
     std::string spot() { return fmt::format("[{}, {}]", below(3), below(3)); }
     std::string supervisor() {
         return fmt::format("{{ \"template\": {}, \"in\": {{{}}}, \"events\": {{{}}} }}", word(),
-                           list(&Maker::word, "i"), list(&Maker::word, "e"));
+                           list(&PairMaker::word, "i"), list(&PairMaker::word, "e"));
     }
     std::string actor() {
         const size_t number = supervisors_++;
         return fmt::format(
             "{{ \"template\": {}, \"in\": {{{}}}, \"out\": {{{}}}, \"states\": {{{}}}, "
             "\"supervisors\": {{{}}} }}",
-            word(), list(&Maker::word, "i"), list(&Maker::word, "o"), list(&Maker::word, "s"),
-            list(&Maker::supervisor, fmt::format("n{}_", number % 6)));
+            word(), list(&PairMaker::word, "i"), list(&PairMaker::word, "o"), list(&PairMaker::word, "s"),
+            list(&PairMaker::supervisor, fmt::format("n{}_", number % 6)));
     }
 
     SplitMix64 random_;
@@ -201,9 +201,9 @@ private:
 TEST(Differences, AppliedToTheOneTheyGiveTheOther) {
     size_t kinds[4] = {};
     for (uint64_t seed = 1; seed <= 200; ++seed) {
-        Maker maker(seed);
+        PairMaker maker(seed);
         const std::string first = maker.plan();
-        const std::string second = Maker(seed * 1000 + 7).plan();
+        const std::string second = PairMaker(seed * 1000 + 7).plan();
         SCOPED_TRACE(fmt::format("seed {}\n{}\n{}", seed, first, second));
         const JsonValue before = tree(first);
         const JsonValue after = tree(second);

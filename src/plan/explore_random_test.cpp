@@ -18,9 +18,9 @@ namespace {
 
 // ---- random plans ----
 
-class Maker {
+class PlanMaker {
 public:
-    explicit Maker(uint64_t seed) : random_(seed) {}
+    explicit PlanMaker(uint64_t seed) : random_(seed) {}
 
     ExploreFiles files() {
         return {{"main.plan.json", plan("Main", 0)},
@@ -557,7 +557,7 @@ TEST(ExploreRandom, TwoHundredPlansAreAsASlowSearchFindsThem) {
     size_t situations = 0;
     size_t compared = 0;
     for (uint64_t seed = 1; compared < 200; ++seed) {
-        const ExploreFiles files = Maker(seed).files();
+        const ExploreFiles files = PlanMaker(seed).files();
         SCOPED_TRACE(fmt::format("seed {}\n{}\n{}\n{}", seed, files.at("main.plan.json"),
                                  files.at("sub1.plan.json"), files.at("sub2.plan.json")));
         const Checked checked = checked_plans(files);

@@ -30,7 +30,7 @@ const std::string kClass = R"({
       "states": { "Done": "while" } }
   }
 })";
-const std::string kInner = R"({
+const std::string kGeneratedInner = R"({
   "format": "vagus-plan/1",
   "name": "class_",
   "configuration": { "to": { "type": "int", "access": "out" } },
@@ -42,7 +42,7 @@ class Generated : public testing::Test {
 protected:
     Generated()
         : checked_(check("main.plan.json",
-                         ChangeTexts({{"main.plan.json", kClass}, {"inner.plan.json", kInner}}),
+                         ChangeTexts({{"main.plan.json", kClass}, {"inner.plan.json", kGeneratedInner}}),
                          change_library())) {
         EXPECT_TRUE(checked_.ok()) << format_findings_json(checked_.findings);
     }

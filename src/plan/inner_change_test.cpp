@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // Calls the inner plan; "both" is shared with it.
-const std::string kOuter = R"({
+const std::string kChangedOuter = R"({
   "format": "vagus-plan/1",
   "name": "Outer",
   "configuration": { "both": { "type": "int", "initial": 1 },
@@ -26,7 +26,7 @@ const std::string kOuter = R"({
     "after": { "template": "Drive", "in": { "speed": "given" }, "states": { "Done": "@terminate" } }
   }
 })";
-const std::string kInner = R"({
+const std::string kChangedInner = R"({
   "format": "vagus-plan/1",
   "name": "Inner",
   "configuration": { "from": { "type": "int", "access": "in" },
@@ -43,7 +43,7 @@ const std::string kInner = R"({
 })";
 
 Texts nested() {
-    return {{"o.plan.json", kOuter}, {"inner.plan.json", kInner}};
+    return {{"o.plan.json", kChangedOuter}, {"inner.plan.json", kChangedInner}};
 }
 
 // The inner plan is at "go"; nothing of how it came there is in the trace.
@@ -58,7 +58,7 @@ struct InsideTheInnerPlan : Running {
 TEST(HotChange, AnInnerPlanChangesAndTheOuterDoesNot) {
     InsideTheInnerPlan run;
     const std::string next =
-        with(kInner, R"("own": {)", R"("new": { "type": "int", "initial": 2 }, "own": {)");
+        with(kChangedInner, R"("own": {)", R"("new": { "type": "int", "initial": 2 }, "own": {)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     EXPECT_THAT(run.trace(), ElementsAre("Outer/call change", "Outer/call write new 2 change"));
     EXPECT_EQ(run.value("own", 1), "3");
@@ -68,7 +68,7 @@ TEST(HotChange, AnInnerPlanChangesAndTheOuterDoesNot) {
 TEST(HotChange, WhileTheOuterChangesASharedVariableStaysOne) {
     InsideTheInnerPlan run;
     const std::string next =
-        with(kOuter, R"("both": {)", R"("first": { "type": "int" }, "both": {)");
+        with(kChangedOuter, R"("both": {)", R"("first": { "type": "int" }, "both": {)");
     EXPECT_THAT(run.change(Texts{{"o.plan.json", next}}), IsEmpty());
     EXPECT_THAT(run.trace(), ElementsAre("Outer change", "Outer write first 0 change"));
     ASSERT_TRUE(run.machine().write_outside(1, 2, Value(int64_t{12}), 10ms).ok());
@@ -79,9 +79,9 @@ TEST(HotChange, WhileTheOuterChangesASharedVariableStaysOne) {
 TEST(HotChange, BothFilesTogetherAreOneChangeAndANewSharedVariableIsTheCallers) {
     InsideTheInnerPlan run;
     const std::string outer =
-        with(kOuter, R"("given": {)", R"("more": { "type": "int", "initial": 6 }, "given": {)");
+        with(kChangedOuter, R"("given": {)", R"("more": { "type": "int", "initial": 6 }, "given": {)");
     const std::string inner =
-        with(kInner, R"("own": {)", R"("more": { "type": "int", "access": "shared" }, "own": {)");
+        with(kChangedInner, R"("own": {)", R"("more": { "type": "int", "access": "shared" }, "own": {)");
     EXPECT_THAT(run.change(Texts{{"o.plan.json", outer}, {"inner.plan.json", inner}}), IsEmpty());
     EXPECT_THAT(run.trace(),
                 ElementsAre("Outer change", "Outer write more 6 change", "Outer/call change"));
@@ -93,7 +93,7 @@ TEST(HotChange, AnInnerPlanThatIsRefusedNamesItsInstance) {
     run.begin();
     run.begin();
     const std::string next =
-        with(kInner, R"("go": { "template": "Drive")", R"("go": { "template": "Turn")");
+        with(kChangedInner, R"("go": { "template": "Drive")", R"("go": { "template": "Turn")");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}),
                 ElementsAre(HasSubstr("Outer/call: the actor \"go\" is active")));
 }
@@ -103,8 +103,8 @@ TEST(HotChange, ACallOfAnotherPlanIsRefusedWhileItRuns) {
     run.begin();
     run.begin();
     const std::string next =
-        with(kOuter, R"("plan": "inner.plan.json")", R"("plan": "other.plan.json")");
-    EXPECT_THAT(run.change(Texts{{"o.plan.json", next}, {"other.plan.json", kInner}}),
+        with(kChangedOuter, R"("plan": "inner.plan.json")", R"("plan": "other.plan.json")");
+    EXPECT_THAT(run.change(Texts{{"o.plan.json", next}, {"other.plan.json", kChangedInner}}),
                 ElementsAre(AllOf(HasSubstr("the actor \"call\" is active as the plan inner"),
                                   HasSubstr("other.plan.json"))));
 }
@@ -117,7 +117,7 @@ TEST(HotChange, AFileThatDoesNotRunNowIsTakenAndTheOutermostPlanTellsIt) {
     run.begin();
     run.trace();
     // Even its type: no such plan runs.
-    const std::string next = with(kInner, R"("own": { "type": "int", "initial": 3 })",
+    const std::string next = with(kChangedInner, R"("own": { "type": "int", "initial": 3 })",
                                   R"("own": { "type": "string", "initial": "3" })");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     EXPECT_THAT(run.trace(), ElementsAre("Outer change"));
@@ -125,7 +125,7 @@ TEST(HotChange, AFileThatDoesNotRunNowIsTakenAndTheOutermostPlanTellsIt) {
 
 TEST(HotChange, AVersionOfAnInnerPlanComesBeforeItsCallBegins) {
     Running run(nested());  // the call is active, its begin is due
-    const std::string next = with(kInner, R"("initial": 3)", R"("initial": 33)");
+    const std::string next = with(kChangedInner, R"("initial": 3)", R"("initial": 33)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     run.trace();
     run.begin();
@@ -137,7 +137,7 @@ TEST(HotChange, WhatAnInnerPlanGivesIsOfItsNewestVersion) {
     Running run(nested());
     run.begin();
     run.begin();
-    const std::string next = with(kInner, R"("to": {)", R"("pad": { "type": "int" }, "to": {)");
+    const std::string next = with(kChangedInner, R"("to": {)", R"("pad": { "type": "int" }, "to": {)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     run.end(21);  // its output "to"
     run.end_sub_plan();
@@ -151,7 +151,7 @@ TEST(HotChange, GlobalSupervisorsDoNotStartInAPlanThatIsBeingEnded) {
     run.let_linger();
     run.raise("wall");  // of the outer plan: the inner one is being ended
     const std::string next =
-        with(kInner, R"("fire": {)",
+        with(kChangedInner, R"("fire": {)",
              R"("new": { "template": "See", "events": { "Seen": "back" } }, "fire": {)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     EXPECT_FALSE(run.watches("new"));

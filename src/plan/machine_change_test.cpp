@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 // drive and turn take turns, both under two global supervisors; each has one of its own.
-const std::string kMain = R"({
+const std::string kChangedMain = R"({
   "format": "vagus-plan/1",
   "name": "Main",
   "configuration": {
@@ -38,21 +38,21 @@ const std::string kMain = R"({
 // ---- what takes over ----
 
 TEST(HotChange, OneThatChangesNothingLeavesOneLine) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.trace();
-    EXPECT_THAT(run.change(kMain), IsEmpty());
+    EXPECT_THAT(run.change(kChangedMain), IsEmpty());
     EXPECT_THAT(run.trace(), ElementsAre("Main change"));
     EXPECT_TRUE(run.watches("stop") && run.watches("end") && run.watches("wall"));
 }
 
 TEST(HotChange, VariablesKeepTheirValuesNewOnesBeginAndThoseThatAreGoneVanish) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     ASSERT_TRUE(run.machine().write_outside(0, Value(int64_t{9}), 10ms).ok());
     run.trace();
     // f is gone, two are new, one of them before n: it has n's place in the list.
-    std::string next = with(kMain, R"("f": { "type": "float", "initial": 1.5 },)", "");
+    std::string next = with(kChangedMain, R"("f": { "type": "float", "initial": 1.5 },)", "");
     next = with(next, R"("n": {)", R"("a": { "type": "string", "initial": "x" }, "n": {)");
     next = with(next, R"("way": {)", R"("z": { "type": "bool" }, "way": {)");
     EXPECT_THAT(run.change(next), IsEmpty());
@@ -64,9 +64,9 @@ TEST(HotChange, VariablesKeepTheirValuesNewOnesBeginAndThoseThatAreGoneVanish) {
 }
 
 TEST(HotChange, NewGlobalSupervisorsStart) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
-    const std::string next = with(kMain, R"("stop": {)",
+    const std::string next = with(kChangedMain, R"("stop": {)",
                                   R"("first": { "template": "See", "in": { "limit": 4 },
                                      "events": { "Seen": "rest" } }, "stop": {)");
     EXPECT_THAT(run.change(next), IsEmpty());
@@ -78,12 +78,12 @@ TEST(HotChange, NewGlobalSupervisorsStart) {
 }
 
 TEST(HotChange, AGlobalSupervisorThatRestsMayGoAndDoesNotStartAnew) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.raise("stop");  // to turn, its remedy: it rests
     run.begin();
     const std::string next = with(
-        kMain,
+        kChangedMain,
         R"("stop": { "template": "See", "in": { "limit": "n" }, "events": { "Seen": "turn" } },)",
         "");
     EXPECT_THAT(run.change(next), IsEmpty());
@@ -93,12 +93,12 @@ TEST(HotChange, AGlobalSupervisorThatRestsMayGoAndDoesNotStartAnew) {
 }
 
 TEST(HotChange, AGlobalSupervisorThatRestsStartsAnewAsTheNewVersionSays) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.raise("stop");
     run.begin();
     const std::string next =
-        with(kMain, R"("stop": { "template": "See", "in": { "limit": "n" })",
+        with(kChangedMain, R"("stop": { "template": "See", "in": { "limit": "n" })",
              R"("stop": { "template": "Hear", "period_ms": 50, "in": { "limit": "n + 30" })");
     EXPECT_THAT(run.change(next), IsEmpty());
     run.end();
@@ -107,26 +107,26 @@ TEST(HotChange, AGlobalSupervisorThatRestsStartsAnewAsTheNewVersionSays) {
 
 TEST(HotChange, TargetsAreThoseOfTheNewVersionAtOnce) {
     const std::string state =
-        with(kMain, R"("states": { "Done": "turn" })", R"("states": { "Done": "rest" })");
-    Running by_state(kMain);
+        with(kChangedMain, R"("states": { "Done": "turn" })", R"("states": { "Done": "rest" })");
+    Running by_state(kChangedMain);
     by_state.begin();
     EXPECT_THAT(by_state.change(state), IsEmpty());
     by_state.end();
     EXPECT_EQ(by_state.trace().back(), "Main write way 0 drive");
     EXPECT_EQ(by_state.machine().actor_at(0)->name, "rest");
 
-    const std::string own = with(kMain, R"("out": { "what": "n" }, "events": { "Seen": "turn" })",
+    const std::string own = with(kChangedMain, R"("out": { "what": "n" }, "events": { "Seen": "turn" })",
                                  R"("out": { "what": "n" }, "events": { "Seen": "rest" })");
-    Running by_own(kMain);
+    Running by_own(kChangedMain);
     by_own.begin();
     EXPECT_THAT(by_own.change(own), IsEmpty());
     by_own.raise("wall");
     EXPECT_EQ(by_own.machine().actor_at(0)->name, "rest");
 
     const std::string global =
-        with(kMain, R"("in": { "limit": "n" }, "events": { "Seen": "turn" })",
+        with(kChangedMain, R"("in": { "limit": "n" }, "events": { "Seen": "turn" })",
              R"("in": { "limit": "n" }, "events": { "Seen": "@ignore" })");
-    Running by_global(kMain);
+    Running by_global(kChangedMain);
     by_global.begin();
     EXPECT_THAT(by_global.change(global), IsEmpty());
     by_global.trace();
@@ -137,14 +137,14 @@ TEST(HotChange, TargetsAreThoseOfTheNewVersionAtOnce) {
 
 TEST(HotChange, WhatAnActivationWasStartedWithStaysUntilItsEnd) {
     // Other formulas everywhere, another variable for the output, another supervisor beside "wall".
-    std::string next = with(kMain, R"("limit": "n + 1")", R"("limit": "n + 100")");
+    std::string next = with(kChangedMain, R"("limit": "n + 1")", R"("limit": "n + 100")");
     next = with(next, R"("in": { "limit": "n" }, "events")",
                 R"("in": { "limit": "n + 200" }, "events")");
     next = with(next, R"("out": { "way": "way" })", R"("out": { "way": "n" })");
     next = with(next, R"("in": { "speed": "n" })", R"("in": { "speed": "n + 300" })");
     next = with(next, R"("wall": {)",
                 R"("more": { "template": "See", "events": { "Seen": "rest" } }, "wall": {)");
-    Running run(kMain);  // drive is active, and its begin is due: it was started with the old one
+    Running run(kChangedMain);  // drive is active, and its begin is due: it was started with the old one
     EXPECT_THAT(run.change(next), IsEmpty());
     EXPECT_FALSE(run.watches("more"));
     EXPECT_EQ(run.limit_of("wall"), "6");
@@ -169,7 +169,7 @@ TEST(HotChange, WhatAnActivationWasStartedWithStaysUntilItsEnd) {
 }
 
 TEST(HotChange, WhatWasStartedBeforeStillReadsAVariableThatIsGoneAndItsOutputIsDropped) {
-    std::string next = with(kMain, R"("n": { "type": "int", "initial": 5 },)", "");
+    std::string next = with(kChangedMain, R"("n": { "type": "int", "initial": 5 },)", "");
     next = with(next, R"("way": { "type": "int", "initial": 0 })",
                 R"("m": { "type": "int", "initial": 40 })");
     next = with(next, R"("limit": "n + 1")", R"("limit": "m")");
@@ -178,7 +178,7 @@ TEST(HotChange, WhatWasStartedBeforeStillReadsAVariableThatIsGoneAndItsOutputIsD
     next = with(next, R"("out": { "what": "n" })", R"("out": { "what": "m" })");
     next = with(next, R"("in": { "speed": "n" })", R"("in": { "speed": "m" })");
     next = with(next, R"("in": { "speed": "n * 2" })", R"("in": { "speed": "m" })");
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     EXPECT_THAT(run.change(next), IsEmpty());
     EXPECT_EQ(run.limit_of("wall"), "6");
@@ -192,10 +192,10 @@ TEST(HotChange, WhatWasStartedBeforeStillReadsAVariableThatIsGoneAndItsOutputIsD
 // ---- what is refused ----
 
 TEST(HotChange, AVariableOfAnotherTypeOrAccessIsRefused) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.trace();
-    std::string next = with(kMain, R"("f": { "type": "float", "initial": 1.5 })",
+    std::string next = with(kChangedMain, R"("f": { "type": "float", "initial": 1.5 })",
                             R"("f": { "type": "int", "initial": 1 })");
     next = with(next, R"("way": { "type": "int", "initial": 0 })",
                 R"("way": { "type": "int", "initial": 0, "access": "out" })");
@@ -207,21 +207,21 @@ TEST(HotChange, AVariableOfAnotherTypeOrAccessIsRefused) {
 }
 
 TEST(HotChange, AnActiveActorThatIsMissingOrAnotherIsRefused) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
-    std::string gone = with(kMain, R"("drive": {)", R"("ride": {)");
+    std::string gone = with(kChangedMain, R"("drive": {)", R"("ride": {)");
     gone = with(gone, R"({ "actor": "drive")", R"({ "actor": "ride")");
     gone = with(gone, R"("Done": "drive")", R"("Done": "ride")");
     EXPECT_THAT(run.change(gone), ElementsAre(HasSubstr("the actor \"drive\" is active")));
-    EXPECT_THAT(run.change(with(kMain, R"("drive": { "template": "Drive")",
+    EXPECT_THAT(run.change(with(kChangedMain, R"("drive": { "template": "Drive")",
                                 R"("drive": { "template": "Turn")")),
                 ElementsAre(AllOf(HasSubstr("as Drive"), HasSubstr("makes it Turn"))));
-    EXPECT_THAT(run.change(with(kMain, R"("in": { "speed": "n" })",
+    EXPECT_THAT(run.change(with(kChangedMain, R"("in": { "speed": "n" })",
                                 R"("in": { "speed": "n", "limit": 3 })")),
                 ElementsAre(AllOf(HasSubstr("inputs speed,"), HasSubstr("feeds limit, speed"))));
     // One that is not active may change in any way.
     EXPECT_THAT(
-        run.change(with(kMain, R"("turn": { "template": "Turn", "in": { "speed": "n * 2" })",
+        run.change(with(kChangedMain, R"("turn": { "template": "Turn", "in": { "speed": "n * 2" })",
                         R"("turn": { "template": "Drive", "in": {})")),
         IsEmpty());
     run.end();
@@ -229,12 +229,12 @@ TEST(HotChange, AnActiveActorThatIsMissingOrAnotherIsRefused) {
 }
 
 TEST(HotChange, OneOfItsOwnSupervisorsThatIsMissingOrAnotherIsRefused) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     const std::string own =
         R"("wall": { "template": "See", "period_ms": 20, "in": { "limit": "n + 1" })";
     const auto reasons = [&run, &own](const std::string& instead) {
-        return run.change(with(kMain, own, instead));
+        return run.change(with(kChangedMain, own, instead));
     };
     EXPECT_THAT(reasons(R"("door": { "template": "See", "period_ms": 20, "in": { "limit": 1 })"),
                 ElementsAre(HasSubstr("the supervisor \"wall\" watches")));
@@ -249,10 +249,10 @@ TEST(HotChange, OneOfItsOwnSupervisorsThatIsMissingOrAnotherIsRefused) {
 }
 
 TEST(HotChange, AGlobalSupervisorThatWatchesAndIsMissingOrAnotherIsRefusedWithEveryReason) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     std::string next =
-        with(kMain, R"("stop": { "template": "See")", R"("stop": { "template": "Hear")");
+        with(kChangedMain, R"("stop": { "template": "See")", R"("stop": { "template": "Hear")");
     next = with(next, R"("end": {)", R"("fin": {)");
     next = with(next, R"("template": "Drive", "in": { "speed": "n" })",
                 R"("template": "Turn", "in": {})");
@@ -263,29 +263,29 @@ TEST(HotChange, AGlobalSupervisorThatWatchesAndIsMissingOrAnotherIsRefusedWithEv
 }
 
 TEST(HotChange, BeforeTheStartAndAfterTheEndThereIsNothingToChange) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.raise("end");
     ASSERT_TRUE(run.machine().over());
-    EXPECT_THAT(run.change(kMain), ElementsAre(HasSubstr("nothing to change")));
+    EXPECT_THAT(run.change(kChangedMain), ElementsAre(HasSubstr("nothing to change")));
 }
 
 TEST(HotChange, OneMoreThanTheMostIsRefused) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
-    for (size_t i = 0; i < kChangesMax; ++i) ASSERT_THAT(run.change(kMain), IsEmpty());
-    EXPECT_THAT(run.change(kMain), ElementsAre(HasSubstr("1000 new versions")));
+    for (size_t i = 0; i < kChangesMax; ++i) ASSERT_THAT(run.change(kChangedMain), IsEmpty());
+    EXPECT_THAT(run.change(kChangedMain), ElementsAre(HasSubstr("1000 new versions")));
 }
 
 // ---- while an actor is being stopped ----
 
 TEST(HotChange, WhileAnActorIsBeingStoppedWhatFollowsIsOfTheNewVersion) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.let_linger();
     run.raise("wall");  // to turn
     const std::string next =
-        with(kMain, R"("in": { "speed": "n * 2" })", R"("in": { "speed": 60 })");
+        with(kChangedMain, R"("in": { "speed": "n * 2" })", R"("in": { "speed": 60 })");
     EXPECT_THAT(run.change(next), IsEmpty());
     run.trace();
     run.stopped();
@@ -295,11 +295,11 @@ TEST(HotChange, WhileAnActorIsBeingStoppedWhatFollowsIsOfTheNewVersion) {
 }
 
 TEST(HotChange, TheActorThatAnEventHasLedToIsNeeded) {
-    Running run(kMain);
+    Running run(kChangedMain);
     run.begin();
     run.let_linger();
     run.raise("wall");
-    std::string next = kMain;
+    std::string next = kChangedMain;
     for (int i = 0; i < 3; ++i) next = with(next, R"(": "turn")", R"(": "rest")");
     next = with(next, R"("turn": {)", R"("spin": {)");
     EXPECT_THAT(run.change(next), ElementsAre(HasSubstr("the actor \"turn\" follows")));

@@ -19,7 +19,7 @@ class AlwaysSees final : public Supervisor {
     std::optional<plan::Given> check(const Check&) override { return plan::Given{}; }
 };
 
-void add_test_code(CodeLibrary& library) {
+void add_code_that_sees(CodeLibrary& library) {
     std::vector<Coded> all;
     all.push_back(test_actor("Go", [](ActorContext& context) { context.end(0); }));
     all.back().declared.outcomes = {{.name = "Done"}, {.name = "Blocked"}};
@@ -28,7 +28,7 @@ void add_test_code(CodeLibrary& library) {
     library.add("core", "", std::move(all));
 }
 
-const std::string kPlan = R"({ "format": "vagus-plan/1", "name": "Main", "start": {
+const std::string kPlayedPlan = R"({ "format": "vagus-plan/1", "name": "Main", "start": {
   "actor": "a", "supervisors": { "hear": { "template": "Hear", "events": { "Seen": "c" } } } },
   "actors": {
     "a": { "template": "Go", "states": { "Done": "a", "Blocked": "b" } },
@@ -45,9 +45,9 @@ struct Played {
 
 Played played(const std::vector<Step>& steps) {
     CodeLibrary library;
-    add_test_code(library);
+    add_code_that_sees(library);
     const plan::Graph graph = with_checks_in_time(
-        test_graph(kPlan, library), [](const plan::GraphSupervisor&) { return true; });
+        test_graph(kPlayedPlan, library), [](const plan::GraphSupervisor&) { return true; });
     Played result;
     PlayedPath path(steps);
     RunOptions options;

@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-void add_test_code(CodeLibrary& library) {
+void add_tried_code(CodeLibrary& library) {
     std::vector<Coded> all;
     all.push_back(unused_actor("Go"));
     all.back().declared.outcomes = {{.name = "Done"}, {.name = "Blocked"}};
@@ -35,7 +35,7 @@ void add_test_code(CodeLibrary& library) {
     library.add("core", "", std::move(all));
 }
 
-const std::string kPlan = R"({ "format": "vagus-plan/1", "name": "Main",
+const std::string kTriedPlan = R"({ "format": "vagus-plan/1", "name": "Main",
   "configuration": { "n": { "type": "int", "initial": 0, "access": "out" } },
   "start": { "actor": "a", "supervisors": {
     "hear": { "template": "Hear", "events": { "Seen": "b" } } } },
@@ -49,8 +49,8 @@ const std::string kPlan = R"({ "format": "vagus-plan/1", "name": "Main",
 class TriedWayTest : public testing::Test {
 protected:
     TriedWayTest() {
-        add_test_code(library_);
-        graph_ = test_graph(kPlan, library_);
+        add_tried_code(library_);
+        graph_ = test_graph(kTriedPlan, library_);
     }
     // The lines of the trace until the way waits, or the plan ends.
     std::vector<std::string> run(TriedWay& way) {

@@ -10,7 +10,7 @@ namespace {
 using Nodes = std::vector<debug::NodeId>;
 using Type = wire::MessageType;
 
-constexpr debug::NodeId kDrive = 1, kBumper = 2, kArm = 3;
+constexpr debug::NodeId kDriveNode = 1, kBumperNode = 2, kArmNode = 3;
 constexpr uint16_t kRunning = 0;
 constexpr uint16_t kPaused = wire::kFlagStep | wire::kFlagActive;
 constexpr uint16_t kAtBreakpoint = kPaused | wire::kFlagRunning;
@@ -19,10 +19,10 @@ constexpr uint16_t kAtBreakpoint = kPaused | wire::kFlagRunning;
 class Braking : public testing::Test {
 protected:
     void SetUp() override {
-        describe(kDrive, "drive", "tick", "id");
-        describe(kBumper, "bumper", "tick", "_program");
-        describe(kArm, "arm", "halted", "_program");
-        for (const debug::NodeId id : {kDrive, kBumper, kArm}) bus_.state(id, 0, kRunning);
+        describe(kDriveNode, "drive", "tick", "id");
+        describe(kBumperNode, "bumper", "tick", "_program");
+        describe(kArmNode, "arm", "halted", "_program");
+        for (const debug::NodeId id : {kDriveNode, kBumperNode, kArmNode}) bus_.state(id, 0, kRunning);
         bus_.forget();
         brake_.begin(bus_.network);
     }
@@ -71,79 +71,79 @@ protected:
 };
 
 TEST_F(Braking, WhatTheSafeStopNamesAndWhatHaltsItselfMoves) {
-    EXPECT_TRUE(moves(view(kDrive), safe_));
-    EXPECT_TRUE(moves(view(kArm), safe_));
-    EXPECT_FALSE(moves(view(kBumper), safe_));
+    EXPECT_TRUE(moves(view(kDriveNode), safe_));
+    EXPECT_TRUE(moves(view(kArmNode), safe_));
+    EXPECT_FALSE(moves(view(kBumperNode), safe_));
 }
 
 TEST_F(Braking, OneThatNothingCanBeReadOfIsNotKnownToBeAtRestWhileItRuns) {
-    EXPECT_FALSE(may_move_unread(view(kDrive), safe_));  // what is set there can be read
-    EXPECT_TRUE(may_move_unread(view(kDrive), {}));      // of whom nobody knows what it does
-    EXPECT_TRUE(may_move_unread(view(kArm), safe_));
-    EXPECT_FALSE(may_move_unread(view(kBumper), safe_));  // a node of Vagus that only senses
-    bus_.state(kArm, 0, kPaused);
-    EXPECT_FALSE(may_move_unread(view(kArm), safe_));
+    EXPECT_FALSE(may_move_unread(view(kDriveNode), safe_));  // what is set there can be read
+    EXPECT_TRUE(may_move_unread(view(kDriveNode), {}));      // of whom nobody knows what it does
+    EXPECT_TRUE(may_move_unread(view(kArmNode), safe_));
+    EXPECT_FALSE(may_move_unread(view(kBumperNode), safe_));  // a node of Vagus that only senses
+    bus_.state(kArmNode, 0, kPaused);
+    EXPECT_FALSE(may_move_unread(view(kArmNode), safe_));
 }
 
 TEST_F(Braking, ThePauseOfASensorPausesWhatMovesUntilItRunsAgain) {
-    const auto paused = after(kBumper, kPaused);
-    EXPECT_EQ(paused.cause, kBumper);
-    EXPECT_EQ(paused.pause, (Nodes{kDrive, kArm}));
-    EXPECT_EQ(paused.make_safe, (Nodes{kDrive, kArm}));
+    const auto paused = after(kBumperNode, kPaused);
+    EXPECT_EQ(paused.cause, kBumperNode);
+    EXPECT_EQ(paused.pause, (Nodes{kDriveNode, kArmNode}));
+    EXPECT_EQ(paused.make_safe, (Nodes{kDriveNode, kArmNode}));
     // That they are paused then is what was asked for.
-    EXPECT_EQ(after(kDrive, kPaused).cause, std::nullopt);
-    EXPECT_EQ(after(kArm, kPaused).cause, std::nullopt);
-    EXPECT_EQ(brake_.braked(), (std::set<debug::NodeId>{kDrive, kArm}));
-    EXPECT_EQ(after(kBumper, kRunning).run, (Nodes{kDrive, kArm}));
+    EXPECT_EQ(after(kDriveNode, kPaused).cause, std::nullopt);
+    EXPECT_EQ(after(kArmNode, kPaused).cause, std::nullopt);
+    EXPECT_EQ(brake_.braked(), (std::set<debug::NodeId>{kDriveNode, kArmNode}));
+    EXPECT_EQ(after(kBumperNode, kRunning).run, (Nodes{kDriveNode, kArmNode}));
     EXPECT_TRUE(brake_.braked().empty());
 }
 
 TEST_F(Braking, OneThatMovesAndIsPausedByOthersIsMadeSafeAndNotLetRun) {
-    const auto orders = after(kDrive, kPaused);
-    EXPECT_EQ(orders.pause, Nodes{kArm});
-    EXPECT_EQ(orders.make_safe, (Nodes{kArm, kDrive}));
-    after(kArm, kPaused);
-    after(kBumper, kPaused);
-    EXPECT_EQ(after(kBumper, kRunning).run, Nodes{});  // drive is still missing
-    EXPECT_EQ(after(kDrive, kRunning).run, Nodes{kArm});
+    const auto orders = after(kDriveNode, kPaused);
+    EXPECT_EQ(orders.pause, Nodes{kArmNode});
+    EXPECT_EQ(orders.make_safe, (Nodes{kArmNode, kDriveNode}));
+    after(kArmNode, kPaused);
+    after(kBumperNode, kPaused);
+    EXPECT_EQ(after(kBumperNode, kRunning).run, Nodes{});  // drive is still missing
+    EXPECT_EQ(after(kDriveNode, kRunning).run, Nodes{kArmNode});
 }
 
 TEST_F(Braking, AFaultAndALossBrake) {
     wire::DivisionByZero fault{};
     fault.pc = 5;
-    bus_.node_sends(kBumper, fault);
-    EXPECT_EQ(orders().pause, (Nodes{kDrive, kArm}));
-    after(kBumper, kRunning);
-    bus_.node_sends(kBumper, wire::Disconnected{});
-    EXPECT_EQ(orders().cause, kBumper);
+    bus_.node_sends(kBumperNode, fault);
+    EXPECT_EQ(orders().pause, (Nodes{kDriveNode, kArmNode}));
+    after(kBumperNode, kRunning);
+    bus_.node_sends(kBumperNode, wire::Disconnected{});
+    EXPECT_EQ(orders().cause, kBumperNode);
     EXPECT_FALSE(brake_.at_breakpoint());
 }
 
 TEST_F(Braking, ABreakpointIsKnownAsSuch) {
-    after(kBumper, kAtBreakpoint);
+    after(kBumperNode, kAtBreakpoint);
     EXPECT_TRUE(brake_.at_breakpoint());
-    after(kBumper, kRunning);
+    after(kBumperNode, kRunning);
     EXPECT_FALSE(brake_.at_breakpoint());
 }
 
 TEST_F(Braking, WhoeverLetsOneRunMeanwhileIsObeyed) {
-    after(kBumper, kPaused);
-    after(kDrive, kPaused);
-    after(kArm, kPaused);
-    EXPECT_EQ(after(kDrive, kRunning).cause, std::nullopt);
-    EXPECT_EQ(after(kBumper, kRunning).run, Nodes{kArm});
+    after(kBumperNode, kPaused);
+    after(kDriveNode, kPaused);
+    after(kArmNode, kPaused);
+    EXPECT_EQ(after(kDriveNode, kRunning).cause, std::nullopt);
+    EXPECT_EQ(after(kBumperNode, kRunning).run, Nodes{kArmNode});
 }
 
 TEST_F(Braking, ANodeThatNeverRanIsNotMissed) {
-    bus_.state(kBumper, 0, kPaused);
+    bus_.state(kBumperNode, 0, kPaused);
     orders();
     brake_.begin(bus_.network);
-    EXPECT_EQ(after(kBumper, kAtBreakpoint).cause, std::nullopt);
+    EXPECT_EQ(after(kBumperNode, kAtBreakpoint).cause, std::nullopt);
 }
 
 TEST_F(Braking, WhatIsSafeIsWrittenAsFarAsTheVariableGoes) {
-    make_safe(bus_.network, safe_, kDrive);
-    make_safe(bus_.network, safe_, kArm);
+    make_safe(bus_.network, safe_, kDriveNode);
+    make_safe(bus_.network, safe_, kArmNode);
     // SetVariables to node 1 from address 0: one word, 0.
     EXPECT_EQ(bus_.sent(), (debug::Dumps{"06 00 00 00 0c a0 01 00 00 00 00 00"}));
 }

@@ -8,7 +8,7 @@ namespace vagus::session {
 namespace {
 
 using namespace std::chrono_literals;
-using State = StopNode::State;
+using StopState = StopNode::State;
 using Types = std::vector<wire::MessageType>;
 
 constexpr uint16_t kSourceAt = 1;  // of the variable, in the description of the scripted robot
@@ -56,11 +56,11 @@ protected:
         for (const debug::Event& event : std::exchange(bus_.events, {})) stopping_.hear(event);
         stopping_.tick(bus_.now);
     }
-    State state_of(debug::NodeId id) const {
+    StopState state_of(debug::NodeId id) const {
         for (const StopNode& node : stopping_.report()) {
             if (node.node == id) return node.state;
         }
-        return State::Gone;
+        return StopState::Gone;
     }
 
     debug::ScriptedBus bus_;
@@ -80,10 +80,10 @@ TEST_F(Stoppings, StopsAllThenWritesThenReadsWhatAnsweredStop) {
                           wire::MessageType::SetVariables, wire::MessageType::SetVariables}));
     says_stopped(2);
     EXPECT_EQ(sent(2), (Types{wire::MessageType::GetVariables, wire::MessageType::GetVariables}));
-    EXPECT_EQ(state_of(2), State::Silent);  // an answered Stop is not yet "stopped"
+    EXPECT_EQ(state_of(2), StopState::Silent);  // an answered Stop is not yet "stopped"
     says(2, kSourceAt, 0);
     says(2, 0, 0);
-    EXPECT_EQ(state_of(2), State::Stopped);
+    EXPECT_EQ(state_of(2), StopState::Stopped);
     EXPECT_FALSE(stopping_.settled());
     says_stopped(3);
     says(3, kSourceAt, 0);
@@ -97,14 +97,14 @@ TEST_F(Stoppings, WhatStillMovesIsWrittenAndReadAgain) {
     says_stopped(2);
     says(2, kSourceAt, 200);  // somebody wrote over it
     says(2, 0, 31);
-    EXPECT_EQ(state_of(2), State::Moving);
+    EXPECT_EQ(state_of(2), StopState::Moving);
     EXPECT_EQ(describe(stopping_.report()), "still moving: robot (2); did not answer: robot (3)");
     (void)sent(2);
     pass(kMovesReadEvery);
     EXPECT_EQ(sent(2), (Types{wire::MessageType::GetVariables, wire::MessageType::GetVariables}));
     says(2, kSourceAt, 0);
     says(2, 0, 0);
-    EXPECT_EQ(state_of(2), State::Stopped);
+    EXPECT_EQ(state_of(2), StopState::Stopped);
 }
 
 TEST_F(Stoppings, WhoDoesNotAnswerIsAskedAgain) {
@@ -141,21 +141,21 @@ TEST_F(Stoppings, RestIsNotBelievedWhenAScriptMayStillWrite) {
     stopping_.begin(bus_.network, safe_, Stopping::How::Rest, bus_.now);
     says(2, kSourceAt, 0);
     says(2, 0, 0);
-    EXPECT_NE(state_of(2), State::Stopped);
+    EXPECT_NE(state_of(2), StopState::Stopped);
     (void)sent(2);
     pass(kRestHolds);
     EXPECT_EQ(sent(2), (Types{wire::MessageType::GetVariables, wire::MessageType::GetVariables}));
     says(2, kSourceAt, 200);
     says(2, 0, 0);
-    EXPECT_EQ(state_of(2), State::Moving);
+    EXPECT_EQ(state_of(2), StopState::Moving);
     EXPECT_EQ(sent(2), Types{wire::MessageType::SetVariables});
     for (const Duration later : {kMovesReadEvery, kRestHolds}) {
-        EXPECT_NE(state_of(2), State::Stopped);
+        EXPECT_NE(state_of(2), StopState::Stopped);
         pass(later);
         says(2, kSourceAt, 0);
         says(2, 0, 0);
     }
-    EXPECT_EQ(state_of(2), State::Stopped);
+    EXPECT_EQ(state_of(2), StopState::Stopped);
 }
 
 TEST_F(Stoppings, LookOnlyReads) {
@@ -166,7 +166,7 @@ TEST_F(Stoppings, LookOnlyReads) {
         says(id, 0, 0);
     }
     EXPECT_TRUE(stopping_.settled());
-    EXPECT_EQ(state_of(3), State::Moving);
+    EXPECT_EQ(state_of(3), StopState::Moving);
     EXPECT_TRUE(sent(3).empty());
 }
 
@@ -174,7 +174,7 @@ TEST_F(Stoppings, ANodeWithoutADefinitionIsStoppedWhenItAnswersStop) {
     const SafeStop none;
     stopping_.begin(bus_.network, none, Stopping::How::Stop, bus_.now);
     says_stopped(2);
-    EXPECT_EQ(state_of(2), State::Stopped);
+    EXPECT_EQ(state_of(2), StopState::Stopped);
     stopping_.begin(bus_.network, none, Stopping::How::Rest, bus_.now);
     EXPECT_TRUE(stopping_.report().empty());
     EXPECT_EQ(describe(stopping_.report()), "");
@@ -184,7 +184,7 @@ TEST_F(Stoppings, ANodeThatIsAwayIsToldWhenItIsBack) {
     begin(Stopping::How::Stop);
     bus_.network.link_lost();
     pass(0ms);
-    EXPECT_EQ(state_of(2), State::Gone);
+    EXPECT_EQ(state_of(2), StopState::Gone);
     (void)sent(2);
     wire::NodePresent present{};
     present.version = 5;

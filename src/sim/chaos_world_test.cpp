@@ -31,7 +31,7 @@ const std::vector<uint16_t> kCounting = {5,
                                          static_cast<uint16_t>(0x4000 | kCounter),
                                          0x0000};
 
-WorldDefinition with_thymio() {
+WorldDefinition in_chaos() {
     WorldDefinition world;
     world.width = 4;
     world.height = 2;
@@ -39,7 +39,7 @@ WorldDefinition with_thymio() {
     return world;
 }
 
-World make(const WorldDefinition& definition, std::vector<ChaosFault> faults,
+World made_with(const WorldDefinition& definition, std::vector<ChaosFault> faults,
            WorldOptions options = {}) {
     options.chaos.faults = std::move(faults);
     Result<World> world = World::create(definition, options);
@@ -51,7 +51,7 @@ World make(const WorldDefinition& definition, std::vector<ChaosFault> faults,
 class Rig {
 public:
     explicit Rig(std::vector<ChaosFault> faults, WorldOptions options = {})
-        : world(make(with_thymio(), std::move(faults), options)), host(world.bus()) {
+        : world(made_with(in_chaos(), std::move(faults), options)), host(world.bus()) {
         host.load(1, kCounting);
         for (int i = 0; i < 3; ++i) world.hold_instant();
     }
@@ -250,9 +250,9 @@ TEST(ChaosWorlds, AThymioWithoutSignsOfLifeStopsWhenFramesPassAgain) {
 // 4265 (robots_test.cpp), and 0 before.
 class SensorRig {
 public:
-    explicit SensorRig(ChaosFault fault) : world(make(definition(), {std::move(fault)})) {}
+    explicit SensorRig(ChaosFault fault) : world(made_with(definition(), {std::move(fault)})) {}
     static WorldDefinition definition() {
-        WorldDefinition world = with_thymio();
+        WorldDefinition world = in_chaos();
         world.timeline.push_back({500ms, AddObject{{.id = "wall",
                                                     .kind = ObjectKind::Wall,
                                                     .at = {1.105, 1},
@@ -310,7 +310,7 @@ TEST(ChaosWorlds, NamesThatAreNotThereAreErrorsWithTheirPlace) {
     const auto error = [](ChaosFault fault) {
         WorldOptions options;
         options.chaos = {.file = "a.json", .faults = {std::move(fault)}};
-        const auto world = World::create(with_thymio(), options);
+        const auto world = World::create(in_chaos(), options);
         return world.ok() ? "" : world.error().what;
     };
     ChaosFault fault = of(ChaosKind::Reset, 1s);
@@ -335,10 +335,10 @@ TEST(ChaosWorlds, NamesThatAreNotThereAreErrorsWithTheirPlace) {
 
 // A fault that changes nothing yet, and one at another robot.
 TEST(ChaosWorlds, NodesWithoutFaultsRunToTheByteAsBefore) {
-    WorldDefinition two = with_thymio();
+    WorldDefinition two = in_chaos();
     two.robots.push_back({.name = "other", .at = {3, 1}, .node = 2});
     const auto state_after = [&two](std::vector<ChaosFault> faults, unsigned threads) {
-        World world = make(two, std::move(faults), {.threads = threads});
+        World world = made_with(two, std::move(faults), {.threads = threads});
         Host host(world.bus());
         host.load(1, counting({0, 5, 9}));
         host.load(2, counting({0, 5, 9}));
@@ -383,7 +383,7 @@ TEST(ChaosWorlds, AResetWorldHasItsFaultsAgain) {
 TEST(ChaosWorlds, DrawTheirFaultsFromWhatTheyHave) {
     WorldOptions options;
     options.chaos.draw = ChaosDraw{.count = 10};
-    Result<World> world = World::create(with_thymio(), options);
+    Result<World> world = World::create(in_chaos(), options);
     ASSERT_TRUE(world.ok()) << world.error().what;
     EXPECT_EQ(world.value().chaos().size(), 10u);
     const auto targets = world.value().chaos_targets();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr RobotId kFirst{1};
 
-WorldDefinition with_thymio() {
+WorldDefinition one_thymio() {
     WorldDefinition definition;
     definition.width = definition.height = 2;
     definition.robots.push_back({.name = "thymio", .at = {1, 1}, .node = 1});
@@ -92,7 +92,7 @@ TEST(Crowd, OneThreadAndTwoAndFiveGiveTheSameBytes) {
 }
 
 TEST(Crowd, RobotsThatShareSomethingHaveOneThread) {
-    WorldDefinition definition = with_thymio();
+    WorldDefinition definition = one_thymio();
     EXPECT_EQ(World::create(definition, {.threads = 2}).value().threads(), 2u);
     EXPECT_EQ(World::create(definition).value().threads(), 1u);  // few
     EXPECT_EQ(World::create(definition, {.sd_folder = ".", .threads = 2}).value().threads(), 1u);
@@ -106,7 +106,7 @@ TEST(Crowd, RobotsThatShareSomethingHaveOneThread) {
 // Its distance sensors are all that it is looked at for, ten times a second: no timer, no event, no
 // frame. With a handler of `motor` it is a hundred times more.
 TEST(Crowd, ANodeIsLookedAtOnlyWhenItIsDue) {
-    World world = std::move(World::create(with_thymio()).value());
+    World world = std::move(World::create(one_thymio()).value());
     Host host(world.bus());
     world.step(1s);
     const uint64_t start = world.turns_taken();

@@ -26,7 +26,7 @@ WorldDefinition with_thymios(std::vector<uint16_t> nodes) {
     return world;
 }
 
-World make(const WorldDefinition& definition, const WorldOptions& options) {
+World made_on_bus(const WorldDefinition& definition, const WorldOptions& options) {
     Result<World> world = World::create(definition, options);
     EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
     return std::move(world.value());
@@ -67,7 +67,7 @@ private:
 // The question leaves at 0, takes below 150 microseconds and arrives at 1 ms; the answers leave
 // then and arrive at 2 ms, the lower identifier first.
 TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
-    World world = make(with_thymios({7, 3}), can());
+    World world = made_on_bus(with_thymios({7, 3}), can());
     Host host(world);
     host.list_nodes();
     world.step(1ms);
@@ -82,7 +82,7 @@ TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
 // 20 events a millisecond, more than the bus carries, under the lowest id: it wins the bus from
 // every node.
 TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
-    World world = make(with_thymios({3, 7}), can());
+    World world = made_on_bus(with_thymios({3, 7}), can());
     Host host(world);
     Host flood(world);
     const auto flood_for = [&](int milliseconds) {
@@ -110,7 +110,7 @@ TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
 }
 
 TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
-    World world = make(with_thymios({7, 3}), {});
+    World world = made_on_bus(with_thymios({7, 3}), {});
     Host host(world);
     host.list_nodes();
     world.step(1ms);
@@ -119,7 +119,7 @@ TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
 }
 
 TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
-    World world = make(with_thymios({1}), can());
+    World world = made_on_bus(with_thymios({1}), can());
     Host one(world);
     Host two(world);
     one.send(event_of_zeros(0));
@@ -137,14 +137,14 @@ TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
 }
 
 TEST(NodeBus, NodesOfSeveralRobotsAreToldApartByTheirRobot) {
-    World world = make(with_thymios({1, 2}), can());
+    World world = made_on_bus(with_thymios({1, 2}), can());
     EXPECT_EQ(world.bus_load()->nodes[2].load.name, "t2/thymio-II");
 }
 
 // 2000 frames at once are more than a port holds: they wait in the hub and pass as fast as the bus
 // goes, one after the other.
 TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
-    World world = make(with_thymios({1}), can());
+    World world = made_on_bus(with_thymios({1}), can());
     Host host(world);
     for (int i = 0; i < 2000; ++i) host.send(event_of_zeros(0));
     world.step(10ms);
@@ -157,7 +157,7 @@ TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
 }
 
 TEST(NodeBus, AFrameThatFitsNoIdentifierIsCountedAsDropped) {
-    World world = make(with_thymios({1}), can());
+    World world = made_on_bus(with_thymios({1}), can());
     Host host(world);
     host.send(event_of_zeros(256));
     world.step(1ms);
@@ -176,7 +176,7 @@ TEST(NodeBus, ANodeIdBeyondEightBitsIsRefused) {
 
 // While the world is held, scripts are loaded: no time passes, and nothing is counted.
 TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
-    World world = make(with_thymios({1, 2}), can());
+    World world = made_on_bus(with_thymios({1, 2}), can());
     Host host(world);
     host.list_nodes();
     world.hold_instant();
@@ -186,7 +186,7 @@ TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
 }
 
 TEST(NodeBus, AResetForgetsWhatWasUnderWay) {
-    World world = make(with_thymios({1}), can());
+    World world = made_on_bus(with_thymios({1}), can());
     Host host(world);
     world.step(5ms);
     host.list_nodes();

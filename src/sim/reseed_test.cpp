@@ -15,7 +15,7 @@ constexpr RobotId kRobot{1};
 constexpr uint16_t kNode = 1;
 
 // The sensors for the ground of a Thymio are noisy wherever it is.
-World make(std::vector<ChaosFault> faults = {}) {
+World made_with_chaos(std::vector<ChaosFault> faults = {}) {
     WorldDefinition definition;
     definition.width = 2;
     definition.height = 2;
@@ -33,7 +33,7 @@ std::string state_at(World& world, Time at) {
 }
 
 std::string after_reseed(uint64_t seed) {
-    World world = make();
+    World world = made_with_chaos();
     world.step(500ms);
     world.reseed(seed);
     return state_at(world, 1s);
@@ -42,12 +42,12 @@ std::string after_reseed(uint64_t seed) {
 TEST(Reseed, TheSameSeedGivesTheSameBytesAndAnotherOneOthers) {
     EXPECT_EQ(after_reseed(5), after_reseed(5));
     EXPECT_NE(after_reseed(5), after_reseed(6));
-    World as_it_was = make();
+    World as_it_was = made_with_chaos();
     EXPECT_NE(after_reseed(5), state_at(as_it_was, 1s));
 }
 
 TEST(Reseed, NothingChangesAtThatInstant) {
-    World world = make();
+    World world = made_with_chaos();
     const std::string before = state_at(world, 500ms);
     world.reseed(5);
     EXPECT_EQ(world.state_of(kRobot, kNode), before);
@@ -55,12 +55,12 @@ TEST(Reseed, NothingChangesAtThatInstant) {
 }
 
 TEST(Reseed, ResetUndoesIt) {
-    World world = make({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
+    World world = made_with_chaos({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
     world.step(500ms);
     world.reseed(5);
     world.reset();
     EXPECT_EQ(world.chaos_seed(), 1u);
-    World other = make({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
+    World other = made_with_chaos({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
     EXPECT_EQ(state_at(world, 1s), state_at(other, 1s));
 }
 
@@ -68,7 +68,7 @@ TEST(Reseed, ResetUndoesIt) {
 
 // How many of 100 user events the node has heard by each of them; half of the frames are lost.
 std::vector<int16_t> heard(std::optional<uint64_t> seed) {
-    World world = make({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
+    World world = made_with_chaos({{.kind = ChaosKind::Lost, .where = "thymio-II", .chance = 0.5}});
     Host host(world.bus());
     std::vector<int16_t> counts;
     world.step(10ms);
@@ -90,7 +90,7 @@ TEST(Reseed, FaultsThatActHitOtherFrames) {
 
 TEST(Reseed, ANoisySensorIsNoisyOtherwise) {
     const auto read = [](uint64_t seed) {
-        World world = make(
+        World world = made_with_chaos(
             {{.kind = ChaosKind::Noisy, .where = "thymio-II", .sensor = "temperature", .by = 100}});
         world.step(500ms);
         world.reseed(seed);

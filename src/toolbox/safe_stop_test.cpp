@@ -23,7 +23,7 @@ Read read(const std::string& value) {
     return result;
 }
 
-std::string error_of(const std::string& value) {
+std::string error_of_safe_stop(const std::string& value) {
     return read(value).error;
 }
 
@@ -50,64 +50,64 @@ TEST(SafeStop, ReadsNumbersListsAndWhatMustReadZero) {
 }
 
 TEST(SafeStop, NamesWhatIsWrongAndWhere) {
-    EXPECT_EQ(error_of("[]"), "f:1:16: \"safe_stop\" of the project is an array; write an object");
-    EXPECT_EQ(error_of(R"({ "a": { "sett": {} } })"),
+    EXPECT_EQ(error_of_safe_stop("[]"), "f:1:16: \"safe_stop\" of the project is an array; write an object");
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "sett": {} } })"),
               "f:1:25: \"a\" in \"safe_stop\" has the unknown key \"sett\"; did you mean \"set\"?");
-    EXPECT_EQ(error_of(R"({ "a": { "set": { "v": 1.5 } } })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": 1.5 } } })"),
               "f:1:39: the value of \"v\" in \"safe_stop\" is 1.5; write a whole number from "
               "-32768 to 32767, or a list of them for an array");
-    EXPECT_EQ(error_of(R"({ "a": { "set": { "v": [1, null] } } })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": [1, null] } } })"),
               "f:1:43: the value of \"v\" in \"safe_stop\" is null; write a whole number from "
               "-32768 to 32767, or a list of them for an array");
-    EXPECT_EQ(error_of(R"({ "a": { "set": { "v": [] } } })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": [] } } })"),
               "f:1:39: \"v\" in \"safe_stop\": expected 1 to 64 values, found none; write the "
               "value to set");
-    EXPECT_EQ(error_of(R"({ "a": { "set": { "v": 1, "v": 2 } } })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": 1, "v": 2 } } })"),
               "f:1:42: \"set\" of \"a\" in \"safe_stop\" has the variable \"v\" a second time; "
               "remove one");
-    EXPECT_EQ(error_of(R"({ "a": { "read": ["v", "v"] } })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "read": ["v", "v"] } })"),
               "f:1:39: \"read\" of \"a\" in \"safe_stop\" names \"v\" twice; keep one of them");
     EXPECT_EQ(
-        error_of(R"({ "a": { "read": [1] } })"),
+        error_of_safe_stop(R"({ "a": { "read": [1] } })"),
         "f:1:34: \"read\" of \"a\" in \"safe_stop\" holds names of variables in quotes, not a "
         "whole number");
-    EXPECT_EQ(error_of(R"({ "a": {}, "a": {} })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": {}, "a": {} })"),
               "f:1:27: \"safe_stop\" has the node \"a\" a second time; remove one");
-    EXPECT_EQ(error_of(R"({ "": {} })"),
+    EXPECT_EQ(error_of_safe_stop(R"({ "": {} })"),
               "f:1:18: a name in \"safe_stop\" has 0 bytes; expected the name of a node, 1 to 255 "
               "bytes");
 }
 
 TEST(SafeStop, ValuesAreWords) {
-    EXPECT_EQ(error_of(R"({ "a": { "set": { "v": [-32768, 32767] } } })"), "no error");
-    EXPECT_NE(error_of(R"({ "a": { "set": { "v": 32768 } } })"), "no error");
-    EXPECT_NE(error_of(R"({ "a": { "set": { "v": -32769 } } })"), "no error");
+    EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": [-32768, 32767] } } })"), "no error");
+    EXPECT_NE(error_of_safe_stop(R"({ "a": { "set": { "v": 32768 } } })"), "no error");
+    EXPECT_NE(error_of_safe_stop(R"({ "a": { "set": { "v": -32769 } } })"), "no error");
 }
 
 TEST(SafeStop, EachListHasItsLimit) {
     const auto node = [](size_t i) { return quoted(i) + ": {}"; };
-    EXPECT_EQ(error_of(list(kSafeStopNodesMax, "{", node, "}")), "no error");
-    EXPECT_EQ(error_of(list(kSafeStopNodesMax + 1, "{", node, "}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopNodesMax, "{", node, "}")), "no error");
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopNodesMax + 1, "{", node, "}")),
               "f:1:16: \"safe_stop\": expected at most 64 nodes, found 65; remove some");
     const auto set = [](size_t i) { return quoted(i) + ": 0"; };
-    EXPECT_EQ(error_of(list(kSafeStopVariablesMax, "{\"a\": {\"set\": {", set, "}}}")), "no error");
-    EXPECT_EQ(error_of(list(kSafeStopVariablesMax + 1, "{\"a\": {\"set\": {", set, "}}}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"set\": {", set, "}}}")), "no error");
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax + 1, "{\"a\": {\"set\": {", set, "}}}")),
               "f:1:30: \"set\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
               "remove some");
-    EXPECT_EQ(error_of(list(kSafeStopVariablesMax, "{\"a\": {\"read\": [", quoted, "]}}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"read\": [", quoted, "]}}")),
               "no error");
     EXPECT_EQ(
-        error_of(list(kSafeStopVariablesMax + 1, "{\"a\": {\"read\": [", quoted, "]}}")),
+        error_of_safe_stop(list(kSafeStopVariablesMax + 1, "{\"a\": {\"read\": [", quoted, "]}}")),
         "f:1:31: \"read\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
         "remove some");
     const auto zero = [](size_t) { return std::string("0"); };
-    EXPECT_EQ(error_of(list(kSafeStopValuesMax, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopValuesMax, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
               "no error");
-    EXPECT_EQ(error_of(list(kSafeStopValuesMax + 1, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopValuesMax + 1, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
               "f:1:36: \"v\" in \"safe_stop\": expected 1 to 64 values, found 65; remove some");
     const std::string longest(kSafeStopNameBytesMax, 'n');
-    EXPECT_EQ(error_of("{\"" + longest + "\": {}}"), "no error");
-    EXPECT_NE(error_of("{\"" + longest + "n\": {}}"), "no error");
+    EXPECT_EQ(error_of_safe_stop("{\"" + longest + "\": {}}"), "no error");
+    EXPECT_NE(error_of_safe_stop("{\"" + longest + "n\": {}}"), "no error");
 }
 
 TEST(SafeStop, AStrongerEntryReplacesThatOfItsNode) {

@@ -11,7 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-using Result = DeployOutcome::Result;
 
 // A robot whose runs start, or do not, when the test says so; the disk is real.
 class DeploymentsTest : public testing::Test {
@@ -91,7 +90,7 @@ TEST_F(DeploymentsTest, WhatStartsStays) {
     EXPECT_FALSE(outcome.has_value()) << "it has not started yet";
     runs(6s);
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
     EXPECT_EQ(outcome->version, 1u);
     EXPECT_EQ(versions.current(), 1u);
     EXPECT_FALSE(versions.trial().has_value());
@@ -110,7 +109,7 @@ TEST_F(DeploymentsTest, WhatDoesNotStartWithinTenSecondsIsTakenBack) {
     const size_t before = starts.size();
     turn(15s);
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::RolledBack);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::RolledBack);
     EXPECT_EQ(outcome->version, 0u);
     EXPECT_THAT(outcome->why, HasSubstr("within 10 s: it does not start: the plan has no start"));
     EXPECT_EQ(opened, "0");
@@ -129,7 +128,7 @@ TEST_F(DeploymentsTest, WhoDeploysIsToldHowThePlanIsThreeSecondsLater) {
     EXPECT_FALSE(outcome.has_value());
     turn(6s + kProvesWithin);
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
     EXPECT_EQ(outcome->why, "its plan runs");
 }
 
@@ -142,7 +141,7 @@ TEST_F(DeploymentsTest, APlanThatFailsAtOnceHasNotStarted) {
     const size_t before = starts.size();
     turn(6s + kProvesWithin - 1us);
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::RolledBack);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::RolledBack);
     EXPECT_EQ(outcome->why, "it does not start: its plan ended in an error: go: it is broken");
     EXPECT_EQ(opened, "0");
     EXPECT_EQ(starts.size(), before + 1) << "the version before is started";
@@ -163,7 +162,7 @@ TEST_F(DeploymentsTest, ARunThatDiesWhileItProvesItselfBeginsAnew) {
     EXPECT_FALSE(outcome.has_value());
     turn(8s + kProvesWithin);
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
 }
 
 TEST_F(DeploymentsTest, MistakesAreToldAndNothingChanges) {
@@ -178,7 +177,7 @@ TEST_F(DeploymentsTest, MistakesAreToldAndNothingChanges) {
     send("one");
     commit();
     ASSERT_TRUE(outcome.has_value());
-    EXPECT_EQ(outcome->result, Result::Refused);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Refused);
     EXPECT_EQ(outcome->findings.size(), 1u);
     EXPECT_TRUE(stops.empty());
     EXPECT_EQ(versions.all(), std::vector<uint32_t>{});
@@ -197,7 +196,7 @@ TEST_F(DeploymentsTest, RemarksDoNotRefuse) {
                  .fixes = {}}};
     try_out("one", 1s);
     runs(1s);
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
 }
 
 TEST_F(DeploymentsTest, PartsComeInTheirOrderAndAsAnnounced) {
@@ -220,7 +219,7 @@ TEST_F(DeploymentsTest, AVersionThatIsTriedOutLetsNoOtherIn) {
     EXPECT_FALSE(deployments.begin(bundle("two")).ok());
     std::optional<DeployOutcome> second;
     deployments.back([&](DeployOutcome ended) { second = std::move(ended); });
-    EXPECT_EQ(second->result, Result::Refused);
+    EXPECT_EQ(second->result, DeployOutcome::Result::Refused);
 }
 
 TEST_F(DeploymentsTest, BackIsByHand) {
@@ -235,7 +234,7 @@ TEST_F(DeploymentsTest, BackIsByHand) {
     turn(3s);
     EXPECT_EQ(opened, "one");
     runs(3s);
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
     EXPECT_EQ(outcome->version, 1u);
     EXPECT_EQ(versions.all(), (std::vector<uint32_t>{1, 2}));
 }
@@ -250,7 +249,7 @@ TEST_F(DeploymentsTest, BackWaitsForWhatDoesNotStart) {
     stops.back()();
     turn(2s);
     turn(13s);
-    EXPECT_EQ(outcome->result, Result::Waiting);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Waiting);
     EXPECT_EQ(versions.current(), 0u);
     EXPECT_EQ(starter.state(), Starter::State::Waiting);
 }
@@ -265,7 +264,7 @@ TEST_F(DeploymentsTest, NothingStartsAfterAStopByHand) {
     stops.back()();
     const size_t before = starts.size();
     turn(1s);
-    EXPECT_EQ(outcome->result, Result::Stopped);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Stopped);
     turn(100s);
     EXPECT_EQ(starts.size(), before);
     EXPECT_EQ(versions.current(), 1u);
@@ -293,7 +292,7 @@ TEST_F(DeploymentsTest, AnEmptyFolderWaitsForItsFirstProject) {
     EXPECT_EQ(opened, "");
     try_out("one", 1s);
     runs(1s);
-    EXPECT_EQ(outcome->result, Result::Started);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Started);
 }
 
 }  // namespace

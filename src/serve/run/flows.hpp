@@ -1,5 +1,5 @@
 // What flows from a run to pages as it is: poses, rays, pictures of cameras. Each page is sent the
-// latest bytes of each kind once.
+// latest bytes of each kind once; the same of the same instant are not sent again.
 //
 //     Flows flows(desk.topics());
 //     flows.show(poses);

@@ -369,10 +369,32 @@ TEST_F(RunTest, APictureIsSentOnceToEachWhoWatches) {
     EXPECT_EQ(look(), 1u);
     say(talk::Picture{2, "bob", {"pixels"}});
     EXPECT_EQ(look(), 0u);
+    say(talk::Picture{2, "alice", {"pixels"}});
+    EXPECT_EQ(look(), 0u);
+    say(talk::Picture{3, "alice", {"pixels"}});
+    EXPECT_EQ(look(), 1u);
     say(talk::Picture{2, "alice", {"others"}});
     EXPECT_EQ(look(), 1u);
     EXPECT_THAT(frames[0], HasSubstr("others"));
 }
+
+// A paused run tells 30 times a second where everything still is.
+TEST_F(RunTest, WhereThingsStillAreIsNotSentAgain) {
+    open();
+    say(opened_answer(number));
+    const Json watch = {{"watch", 1}, {"topic", "poses"}};
+    ASSERT_FALSE(desk.topics().watch(ClientId{1}, watch, now).has_value());
+    const auto tell = [this](double t, const char* poses) {
+        say(talk::Poses{t, {poses}});
+        flush();
+        return frames.size();
+    };
+    EXPECT_EQ(tell(2, "here"), 1u);
+    EXPECT_EQ(tell(2, "here"), 0u);
+    EXPECT_EQ(tell(2, "moved by hand"), 1u);
+    EXPECT_EQ(tell(3, "moved by hand"), 1u);
+}
+
 
 }  // namespace
 }  // namespace vagus::serve

@@ -23,14 +23,14 @@ struct Sent {
 };
 
 // Topics with a clock that tests turn, and what it has sent.
-struct Fixture {
+struct TopicsFixture {
     Topics topics;
     std::vector<Sent> sent;
     double clock = 0;
     int made = 0;
     ClientId full{0};  // a page without room
 
-    Fixture() {
+    TopicsFixture() {
         topics.document("clock", [this](const Json&) {
             ++made;
             return Json{{"t", clock}, {"state", "running"}};
@@ -62,7 +62,7 @@ TEST(MergePatch, HoldsWhatChangedAndNullForWhatWent) {
 }
 
 TEST(Topics, ADocumentComesWholeThenInPatches) {
-    Fixture f;
+    TopicsFixture f;
     f.watch(kPage, {{"watch", 5}, {"topic", "clock"}});
     f.flush(0s);
     ASSERT_EQ(f.sent.size(), 1u);
@@ -81,7 +81,7 @@ TEST(Topics, ADocumentComesWholeThenInPatches) {
 }
 
 TEST(Topics, NoFasterThanAskedAndNothingThatNobodyWatches) {
-    Fixture f;
+    TopicsFixture f;
     f.topics.touch("clock");
     f.flush(0s);
     EXPECT_EQ(f.made, 0);
@@ -100,7 +100,7 @@ TEST(Topics, NoFasterThanAskedAndNothingThatNobodyWatches) {
 }
 
 TEST(Topics, APageWithoutRoomGetsWhatItMissedInOne) {
-    Fixture f;
+    TopicsFixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
     f.watch(kOther, {{"watch", 1}, {"topic", "clock"}});
     f.flush(0s);
@@ -120,7 +120,7 @@ TEST(Topics, APageWithoutRoomGetsWhatItMissedInOne) {
 
 // Else the server would turn round in circles for as long as a page does not read.
 TEST(Topics, APageWithoutRoomIsNotDueAtOnce) {
-    Fixture f;
+    TopicsFixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "clock"}});
     f.full = kPage;
     f.flush(5s);
@@ -128,7 +128,7 @@ TEST(Topics, APageWithoutRoomIsNotDueAtOnce) {
 }
 
 TEST(Topics, AStreamTellsWhatItLeftOut) {
-    Fixture f;
+    TopicsFixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
     for (int i = 0; i < 5; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
     f.flush(0s);
@@ -142,7 +142,7 @@ TEST(Topics, AStreamTellsWhatItLeftOut) {
 }
 
 TEST(Topics, AStreamThatWasForgottenGoesOnCounting) {
-    Fixture f;
+    TopicsFixture f;
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}});
     for (int i = 0; i < 3; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
     f.topics.forget("console");
@@ -156,7 +156,7 @@ TEST(Topics, AStreamThatWasForgottenGoesOnCounting) {
 }
 
 TEST(Topics, AStreamBeginsWithTheLastOnesAskedFor) {
-    Fixture f;
+    TopicsFixture f;
     for (int i = 0; i < 3; ++i) f.topics.add("console", {{"kind", "note"}, {"text", i}});
     f.watch(kPage, {{"watch", 1}, {"topic", "console"}, {"of", {{"last", 1}}}});
     f.flush(0s);
@@ -172,7 +172,7 @@ TEST(Topics, BinaryFramesHaveTheirHead) {
             return std::pair(2.5, std::string("ab"));
         }
     };
-    Fixture f;
+    TopicsFixture f;
     f.topics.binary("poses", [](const Json&) { return std::make_unique<Once>(); });
     f.watch(kPage, {{"watch", 258}, {"topic", "poses"}});
     f.flush(0s);
@@ -189,7 +189,7 @@ TEST(Topics, BinaryFramesHaveTheirHead) {
 }
 
 TEST(Topics, WrongSubscriptionsAreRefused) {
-    Fixture f;
+    TopicsFixture f;
     EXPECT_EQ(f.topics.watch(kPage, {{"watch", 1}, {"topic", "clocks"}}, 0s)->code, "not_found");
     EXPECT_EQ(f.topics.watch(kPage, {{"watch", 1}, {"topic", "doc"}}, 0s)->code, "bad_message");
     for (uint32_t i = 0; i < Protocol::get().limit("watches"); ++i) {
@@ -202,7 +202,7 @@ TEST(Topics, WrongSubscriptionsAreRefused) {
 
 // What was seen: one document that threw kept all that come after it from every page.
 TEST(Topics, ADocumentThatCannotBeMadeKeepsNoOtherBack) {
-    Fixture f;
+    TopicsFixture f;
     int tried = 0;
     f.topics.document("breakpoints", [&](const Json&) -> Json {
         ++tried;

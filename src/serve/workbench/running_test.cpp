@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* kToken = "0123456789abcdef";
+constexpr const char* kPageToken = "0123456789abcdef";
 constexpr const char* kWorld =
     "{ \"format\": \"vagus-world/1\", \"size\": [2, 2], \"robots\": [] }\n";
 constexpr const char* kPlan =
@@ -32,7 +32,7 @@ class RunningTest : public testing::Test {
 protected:
     RunningTest() {
         desk.hear(ClientOpened{{1}, "127.0.0.1"}, now);
-        say("hello", {{"token", kToken}, {"client", "test"}});
+        say("hello", {{"token", kPageToken}, {"client", "test"}});
     }
     Result<std::unique_ptr<RunProcess>> start() { return start_scripted(runner); }
     void write(const std::string& path, const std::string& text) const {
@@ -125,7 +125,7 @@ protected:
     talk::Open opened;
     std::vector<std::string> changed;
     net::Links network;
-    Desk desk{Access(kToken, std::nullopt),
+    Desk desk{Access(kPageToken, std::nullopt),
               {.send =
                    [this](ClientId, bool binary, std::string bytes) {
                        if (!binary) answers.push_back(Json::parse(bytes));

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kPlan = R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "wait"},
+const std::string kTriedPlan = R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "wait"},
     "actors": {"wait": {"template": "Wait", "in": {"seconds": 1},
                         "states": {"Done": "@terminate"}}}})";
 
@@ -20,7 +20,7 @@ const std::string kPlan = R"({"format": "vagus-plan/1", "name": "P", "start": {"
 class TryDeskTest : public OtherEndTest {
 protected:
     TryDeskTest() {
-        write("P.plan.json", kPlan);
+        write("P.plan.json", kTriedPlan);
         enter({.plan = "P.plan.json"});
     }
     TryDesk& desk_with(const std::string& script) {

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr double kDegree = trig::kPi / 180;
+constexpr double kOneDegree = trig::kPi / 180;
 
 // A robot at (5, 5) of an open field, looking along x: its rotator is at (5.18, 5).
 class Senses : public testing::Test {
@@ -106,24 +106,24 @@ TEST_F(Sounding, WhatIsNearerThanThreeCentimetresReadsSo) {
 // A wall through the point 1 m ahead, its normal 45 degrees off the axis. The ray at 12 degrees
 // toward the normal meets it first: cos 45 / cos (45 - 12) = 0.8431.
 TEST_F(Sounding, ASlantedWallIsHeardWhereTheConeMeetsItFirst) {
-    add_wall(1.0, 45 * kDegree);
+    add_wall(1.0, 45 * kOneDegree);
     EXPECT_NEAR(mean_distance(), 843.1, 2.5);
 }
 
 // 75 degrees off: even the ray at 12 degrees meets it at 63.
 TEST_F(Sounding, ASlantBeyondSixtyDegreesThrowsTheSoundElsewhere) {
-    add_wall(1.0, 75 * kDegree);
+    add_wall(1.0, 75 * kOneDegree);
     ping();
     EXPECT_EQ(sonar_.distance(), 0);
 }
 
 // 10 degrees off the axis is in the cone, 16 degrees is not (the post is 1.2 degrees wide).
 TEST_F(Sounding, HearsWhatIsInItsCone) {
-    add_post({5.18 + trig::cos(10 * kDegree), 5 + trig::sin(10 * kDegree)});
+    add_post({5.18 + trig::cos(10 * kOneDegree), 5 + trig::sin(10 * kOneDegree)});
     EXPECT_NEAR(mean_distance(), 980, 4);
 }
 TEST_F(Sounding, DoesNotHearWhatIsBesideItsCone) {
-    add_post({5.18 + trig::cos(16 * kDegree), 5 + trig::sin(16 * kDegree)});
+    add_post({5.18 + trig::cos(16 * kOneDegree), 5 + trig::sin(16 * kOneDegree)});
     ping();
     EXPECT_EQ(sonar_.distance(), 0);
 }
@@ -136,7 +136,7 @@ TEST_F(Sounding, HearsOverLowThingsTheWallBehind) {
 
 // What swallows the sound also hides what is behind it.
 TEST_F(Sounding, DoesNotHearThroughASlantedWall) {
-    add_wall(0.5, 80 * kDegree);
+    add_wall(0.5, 80 * kOneDegree);
     add_wall(1.5);
     ping();
     EXPECT_NE(sonar_.distance(), 500);
@@ -201,7 +201,7 @@ TEST_F(Infrared, TellsDirectionAndNearness) {
 }
 
 TEST_F(Infrared, TurnsWithTheRobot) {
-    arena_.place(body_, {{5, 5}, 90 * kDegree});
+    arena_.place(body_, {{5, 5}, 90 * kOneDegree});
     EXPECT_NEAR(mean_direction({{6, 6}}), -450, 4);
 }
 

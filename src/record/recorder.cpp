@@ -288,11 +288,13 @@ void Recorder::variables(Node& node, Time at, bool all) {
     learn_variables(node);
     if (!node.variables) return;
     auto words = session_->world().variables(node.robot, node.id);
+    // Of JSON, at most: most messages take less. Chunks are short by that, and so is what is lost
+    // where a run in virtual time is killed.
+    constexpr size_t kBytesOfWord = 8;
+    const size_t bytes = kBytesOfWord * words.size();
     words = words.first(std::min(words.size(), node.named));
     const bool picture = all || !node.pictured || words.size() != node.words->size();
     if (!picture && std::equal(words.begin(), words.end(), node.words->begin())) return;
-    constexpr size_t kBytesOfWord = 8;  // of JSON, about
-    const size_t bytes = kBytesOfWord * words.size();
     std::shared_ptr<const Words> before =
         std::exchange(node.words, std::make_shared<const Words>(words.begin(), words.end()));
     node.pictured = true;

@@ -187,6 +187,12 @@ std::string json_quote(std::string_view text) {
     constexpr std::string_view kReplacement = "\ufffd";
     constexpr std::string_view kLetters = "\"\\bfnrt";
     std::string quoted = "\"";
+    // Nearly all texts are names and sentences of ASCII.
+    const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
+    const auto special = std::find_if_not(text.begin(), text.end(), is_plain);
+    const auto plain = static_cast<size_t>(special - text.begin());
+    quoted.append(text.substr(0, plain));
+    text.remove_prefix(plain);
     while (!text.empty()) {
         const CodePoint point = first_code_point(text);
         const size_t bytes = std::max<size_t>(point.bytes, 1);

@@ -14,24 +14,38 @@ void append_record(std::string& to, Opcode opcode, std::string_view content) {
     Put(to).u8(static_cast<uint8_t>(opcode)).u64(content.size()).bytes(content);
 }
 
-std::string compressed(const std::string& bytes) {
-    std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-    const size_t size =
-        ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
-    // With as much room as the bound says it fails only for want of memory.
-    if (ZSTD_isError(size) != 0) throw std::bad_alloc();
-    packed.resize(size);
-    return packed;
-}
-
 }  // namespace
 
+// Its tables and its room are a megabyte or two: made once, for all chunks.
+class Writer::Packer {
+public:
+    Packer() : context_(ZSTD_createCCtx(), &ZSTD_freeCCtx) {
+        if (!context_) throw std::bad_alloc();
+    }
+    // Valid until the next.
+    std::string_view packed(std::string_view bytes) {
+        room_.resize(std::max(room_.size(), ZSTD_compressBound(bytes.size())));
+        const size_t size = ZSTD_compressCCtx(context_.get(), room_.data(), room_.size(),
+                                              bytes.data(), bytes.size(), kLevel);
+        // With as much room as the bound says it fails only for want of memory.
+        if (ZSTD_isError(size) != 0) throw std::bad_alloc();
+        return {room_.data(), size};
+    }
+
+private:
+    std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context_;
+    std::vector<char> room_;
+};
+
 Writer::Writer(Sink sink, std::string_view library) : sink_(std::move(sink)) {
+    packer_ = std::make_unique<Packer>();
     put(kMagic);
     std::string header;
     Put(header).string("").string(library);
     put_record(Opcode::Header, header);
 }
+
+Writer::~Writer() = default;
 
 void Writer::put(std::string_view bytes) {
     if (!state_.ok()) return;
@@ -89,37 +103,42 @@ void Writer::attach(const Attachment& attachment) {
 
 void Writer::write_chunk() {
     if (chunk_.empty()) return;
-    const std::string packed = compressed(chunk_);
+    const std::string_view packed = packer_->packed(chunk_);
     ChunkPlace place;
     place.from = chunk_from_;
     place.to = chunk_to_;
     place.offset = offset_;
     place.compressed = packed.size();
     place.uncompressed = chunk_.size();
-    std::string content;
-    Put put(content);
+    constexpr size_t kChunkHead = 8 + 8 + 8 + 4 + (4 + 4) + 8;
+    record_.clear();
+    Put put(record_);
+    put.u8(static_cast<uint8_t>(Opcode::Chunk)).u64(kChunkHead + packed.size());
     put.u64(place.from).u64(place.to).u64(place.uncompressed).u32(crc32(chunk_));
     put.string("zstd").u64(packed.size()).bytes(packed);
-    put_record(Opcode::Chunk, content);
-    place.length = offset_ - place.offset;
-    put_indexes(place);
+    place.length = record_.size();
+    add_indexes(place);
+    this->put(
+        record_);  // at once: a system call for each of a hundred indexes costs more than they do
     chunks_.push_back(std::move(place));
     chunk_.clear();
     chunk_index_.clear();
     chunk_from_ = chunk_to_ = 0;
 }
 
-void Writer::put_indexes(ChunkPlace& place) {
-    const uint64_t begin = offset_;
+// Behind the chunk.
+void Writer::add_indexes(ChunkPlace& place) {
+    constexpr size_t kIndexHead = 2 + 4;
+    constexpr size_t kEntry = 8 + 8;
+    Put put(record_);
     for (const auto& [channel, entries] : chunk_index_) {
-        place.indexes[channel] = offset_;
-        std::string content;
-        Put put(content);
-        put.u16(channel).u32(static_cast<uint32_t>(entries.size() * 16));
+        place.indexes[channel] = place.offset + record_.size();
+        const size_t bytes = kEntry * entries.size();
+        put.u8(static_cast<uint8_t>(Opcode::MessageIndex)).u64(kIndexHead + bytes);
+        put.u16(channel).u32(static_cast<uint32_t>(bytes));
         for (const auto& [time, offset] : entries) put.u64(time).u64(offset);
-        put_record(Opcode::MessageIndex, content);
     }
-    place.indexes_length = offset_ - begin;
+    place.indexes_length = record_.size() - place.length;
 }
 
 Status Writer::flush() {

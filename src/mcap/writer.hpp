@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +34,9 @@ public:
 
     // `library` is who writes, for people.
     explicit Writer(Sink sink, std::string_view library = "vagus");
+    ~Writer();
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
 
     // They are given their ids, from 1 on; 0 if there are as many as there can be.
     uint16_t add_schema(Schema schema);
@@ -49,6 +53,7 @@ public:
     uint64_t bytes() const { return offset_; }  // written so far
 
 private:
+    class Packer;
     struct ChunkPlace {
         uint64_t from = 0;
         uint64_t to = 0;
@@ -72,7 +77,7 @@ private:
     void put(std::string_view bytes);
     void put_record(Opcode opcode, std::string_view content);
     void write_chunk();
-    void put_indexes(ChunkPlace& place);
+    void add_indexes(ChunkPlace& place);
     std::string statistics() const;
     void put_summary();
 
@@ -82,7 +87,9 @@ private:
     std::vector<Schema> schemas_;
     std::vector<Channel> channels_;
     std::vector<uint32_t> counts_;  // of messages, by channel
-    std::string chunk_;             // as it will be compressed
+    std::unique_ptr<Packer> packer_;
+    std::string chunk_;   // as it will be compressed
+    std::string record_;  // a chunk and its indexes, as they are written
     uint64_t chunk_from_ = 0;
     uint64_t chunk_to_ = 0;
     std::map<uint16_t, Index> chunk_index_;

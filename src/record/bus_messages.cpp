@@ -54,8 +54,9 @@ std::string format_event(const RecordedEvent& event) {
 
 std::string words_json(std::span<const int16_t> words) {
     std::string text = "[";
-    for (size_t i = 0; i < words.size(); ++i) {
-        text += fmt::format("{}{}", i > 0 ? "," : "", words[i]);
+    for (const int16_t word : words) {
+        if (text.size() > 1) text += ',';
+        text += std::to_string(word);
     }
     return text + "]";
 }
@@ -68,26 +69,23 @@ bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
 
 }  // namespace
 
-RecordedVariables changed_variables(const RecordedVariables& variables,
-                                    std::span<const int16_t> before, std::span<const int16_t> now) {
-    RecordedVariables changed;
-    for (const RecordedVariable& one : variables) {
-        if (!is_in(one, before) || !is_in(one, now)) continue;
-        const bool same = std::ranges::equal(before.subspan(one.address, one.size),
-                                             now.subspan(one.address, one.size));
-        if (!same) changed.push_back(one);
-    }
-    return changed;
+bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
+                 std::span<const int16_t> now) {
+    if (!is_in(variable, before) || !is_in(variable, now)) return false;
+    return !std::ranges::equal(before.subspan(variable.address, variable.size),
+                               now.subspan(variable.address, variable.size));
 }
 
-std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
-                             bool all, Time at) {
+std::string format_variables(std::span<const RecordedVariable* const> variables,
+                             std::span<const int16_t> now, bool all, Time at) {
     std::string set;
-    for (const RecordedVariable& one : variables) {
-        if (!is_in(one, now)) continue;
-        const std::span<const int16_t> words = now.subspan(one.address, one.size);
-        set += (set.empty() ? "" : ",") + json_quote(one.name) + ":";
-        set += one.size == 1 ? std::to_string(words.front()) : words_json(words);
+    for (const RecordedVariable* const one : variables) {
+        if (!is_in(*one, now)) continue;
+        const std::span<const int16_t> words = now.subspan(one->address, one->size);
+        if (!set.empty()) set += ',';
+        set += json_quote(one->name);
+        set += ':';
+        set += one->size == 1 ? std::to_string(words.front()) : words_json(words);
     }
     return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
 }

@@ -47,11 +47,11 @@ struct RecordedVariable {
     uint16_t size = 0;
 };
 using RecordedVariables = std::vector<RecordedVariable>;
-// Those that are not in `now` as they were before.
-RecordedVariables changed_variables(const RecordedVariables& variables,
-                                    std::span<const int16_t> before, std::span<const int16_t> now);
-// `all`: they are all that the node has.
-std::string format_variables(const RecordedVariables& variables, std::span<const int16_t> now,
-                             bool all, Time at);
+// Whether it is in both, and not the same.
+bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
+                 std::span<const int16_t> now);
+// Of those that are in `now`. `all`: they are all that the node has.
+std::string format_variables(std::span<const RecordedVariable* const> variables,
+                             std::span<const int16_t> now, bool all, Time at);
 
 }  // namespace vagus::record

@@ -94,14 +94,18 @@ void BusRecorder::variables(Time at, const wire::Frame& frame) {
         const auto first = known.begin() + one.address;
         return std::all_of(first, first + one.size, [](bool is) { return is; });
     };
-    RecordedVariables told;
-    RecordedVariables old;
+    std::vector<const RecordedVariable*> told;
+    std::vector<const RecordedVariable*> changed;
     for (const RecordedVariable& one : node.variables) {
         const bool touched = one.address < end && size_t{one.address} + one.size > begin;
         if (!touched || !is_known(one, node.known)) continue;
-        (is_known(one, was_known) ? old : told).push_back(one);
+        if (!is_known(one, was_known)) {
+            told.push_back(&one);
+        } else if (has_changed(one, before, node.words)) {
+            changed.push_back(&one);
+        }
     }
-    for (auto& one : changed_variables(old, before, node.words)) told.push_back(std::move(one));
+    told.insert(told.end(), changed.begin(), changed.end());
     if (told.empty()) return;
     const bool all = told.size() == node.variables.size();
     tape_.put(node.topic, at, format_variables(told, node.words, all, at));

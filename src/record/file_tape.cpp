@@ -87,8 +87,8 @@ void FileTape::wait_for(Message message) {
 void FileTape::work() {
     bool last = false;
     size_t known = 0;  // of the topics
+    std::vector<Message> messages;
     while (!last) {
-        std::vector<Message> messages;
         std::vector<Topic> declared;
         uint64_t flush = 0;
         {
@@ -96,13 +96,14 @@ void FileTape::work() {
             more_.wait_for(lock, kFlushEvery, [this] {
                 return over_ || waiting_bytes_ >= kWakeAt || flush_wanted_ != flush_done_;
             });
-            messages = std::exchange(waiting_, {});
+            messages.swap(waiting_);  // which keeps its room
             last = over_;
             flush = flush_wanted_;
             declared.assign(topics_.begin() + static_cast<std::ptrdiff_t>(known), topics_.end());
         }
         known += declared.size();
         write(messages, declared, last);
+        messages.clear();
         const std::lock_guard lock(mutex_);
         flush_done_ = flush;
     }

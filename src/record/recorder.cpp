@@ -4,19 +4,25 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/base64.hpp"
 #include "base/json.hpp"
 #include "base/seconds.hpp"
-#include "base/trig.hpp"
 #include "record/bus_messages.hpp"
+#include "record/scene_update.hpp"
 #include "sim/png.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus::record {
 
 namespace {
+
+// Most instants have no sample: they are asked one question.
+constexpr Duration kSamplesEvery = kVariablesEvery;
+static_assert(kPictureEvery % kSamplesEvery == Duration::zero());
+static_assert(kPosesEvery % kSamplesEvery == Duration::zero());
+static_assert(kCamerasEvery % kSamplesEvery == Duration::zero());
+static_assert(kCheckEvery % kSamplesEvery == Duration::zero());
 
 std::string hex(uint64_t hash) {
     return fmt::format("{:016x}", hash);
@@ -32,71 +38,6 @@ std::string bytes_of(const sim::Pose& pose) {
     std::array<double, 3> numbers = {pose.at.x, pose.at.y, pose.angle};
     std::copy_n(reinterpret_cast<const char*>(numbers.data()), sizeof numbers, bytes.data());
     return bytes;
-}
-
-std::string key_of(const sim::ObjectView& object) {
-    const std::string& id = object.definition->id;
-    return id.empty() ? fmt::format("object {}", object.id.number) : id;
-}
-
-// ---- foxglove.SceneUpdate ----
-
-struct Shape {
-    std::string id;
-    sim::Pose pose;
-    double height = 0.1;
-    double x = 0;  // sizes; a cylinder has radius instead
-    double y = 0;
-    double radius = 0;
-    sim::Colour colour;
-};
-
-std::string entity(const Shape& shape, Time at) {
-    const std::string pose =
-        fmt::format(R"("pose":{{"position":{{"x":{:.6f},"y":{:.6f},"z":{:.3f}}},)"
-                    R"("orientation":{{"x":0,"y":0,"z":{:.6f},"w":{:.6f}}}}})",
-                    shape.pose.at.x, shape.pose.at.y, shape.height / 2,
-                    trig::sin(shape.pose.angle / 2), trig::cos(shape.pose.angle / 2));
-    const bool round = shape.radius > 0;
-    const double x = round ? 2 * shape.radius : shape.x;
-    const double y = round ? 2 * shape.radius : shape.y;
-    const std::string more = round ? R"(,"bottom_scale":1,"top_scale":1)" : "";
-    return fmt::format(
-        R"({{"timestamp":{},"frame_id":"world","id":{},"lifetime":{{"sec":0,"nsec":0}},)"
-        R"("frame_locked":false,"metadata":[],"{}":[{{{},)"
-        R"("size":{{"x":{:.4f},"y":{:.4f},"z":{:.4f}}},)"
-        R"("color":{{"r":{:.3f},"g":{:.3f},"b":{:.3f},"a":1}}{}}}]}})",
-        stamp_json(at), json_quote(shape.id), round ? "cylinders" : "cubes", pose, x, y,
-        shape.height, shape.colour.r, shape.colour.g, shape.colour.b, more);
-}
-
-Shape shape_of(const sim::ObjectView& object) {
-    const sim::ObjectDefinition& of = *object.definition;
-    return {"object/" + key_of(object),
-            object.pose,
-            of.height,
-            of.width,
-            of.length,
-            of.radius,
-            of.colour};
-}
-
-// Its hull as the smallest box around it.
-Shape shape_of(const sim::RobotView& robot) {
-    constexpr double kHeight = 0.1;  // for the eye only
-    double x = 0;
-    double y = 0;
-    for (const sim::Point& point : robot.outline) {
-        x = std::max(x, 2 * std::abs(point.x));
-        y = std::max(y, 2 * std::abs(point.y));
-    }
-    return {"robot/" + std::string(robot.name), robot.pose, kHeight, x, y, 0, robot.paint};
-}
-
-std::string scene_update(const std::vector<Shape>& shapes, Time at) {
-    std::string text = R"({"deletions":[],"entities":[)";
-    for (size_t i = 0; i < shapes.size(); ++i) text += (i > 0 ? "," : "") + entity(shapes[i], at);
-    return text + "]}";
 }
 
 // ---- foxglove.CompressedImage ----
@@ -210,15 +151,17 @@ void Recorder::follow_bus(session::SimSession& session) {
 void Recorder::instant() {
     const Time at = now();
     if (chaos_ != 0) chaos();
-    if (at % kVariablesEvery == Duration::zero()) {
-        look_for_nodes();
-        const bool all = at % kPictureEvery == Duration::zero();
-        for (Node& node : nodes_) variables(node, at, all);
-    }
+    if (at % kSamplesEvery == Duration::zero()) samples(at);
+    if (after_instant_) after_instant_(at);
+}
+
+void Recorder::samples(Time at) {
+    look_for_nodes();
+    const bool all = at % kPictureEvery == Duration::zero();
+    for (Node& node : nodes_) variables(node, at, all);
     if (!of_robot_ && at % kPosesEvery == Duration::zero()) poses(at);
     if (at % kCamerasEvery == Duration::zero()) pictures(at);
     if (at % kCheckEvery == Duration::zero()) check(at);
-    if (after_instant_) after_instant_(at);
 }
 
 void Recorder::input(InputWhat what) {
@@ -316,9 +259,10 @@ void Recorder::look_for_nodes() {
 }
 
 void Recorder::learn_variables(Node& node) {
-    const aesl::Target* const target = session_->target(node.id);
     const aesl::Program* const program = session_->program(node.id);
-    if (target == nullptr || (node.variables && program == node.program)) return;
+    if (node.variables && program == node.program) return;
+    const aesl::Target* const target = session_->target(node.id);
+    if (target == nullptr) return;
     node.program = program;
     node.pictured = false;
     auto variables = std::make_shared<RecordedVariables>();
@@ -332,25 +276,36 @@ void Recorder::learn_variables(Node& node) {
             if (one.address >= address) variables->push_back({one.name, one.address, one.size});
         }
     }
+    node.named = 0;
+    for (const RecordedVariable& one : *variables) {
+        node.named = std::max(node.named, size_t{one.address} + one.size);
+    }
     node.variables = std::move(variables);
 }
 
 void Recorder::variables(Node& node, Time at, bool all) {
     if (node.topic == 0) return;
     learn_variables(node);
-    const auto words = session_->world().variables(node.robot, node.id);
-    const bool picture = all || !node.pictured || words.size() != node.words.size();
-    if (!picture && std::equal(words.begin(), words.end(), node.words.begin())) return;
-    constexpr size_t kBytesOfWord = 8;  // of JSON, about
+    if (!node.variables) return;
+    auto words = session_->world().variables(node.robot, node.id);
+    // Of JSON, at most: most messages take less. Chunks are short by that, and so is what is lost
+    // where a run in virtual time is killed.
+    constexpr size_t kBytesOfWord = 8;
     const size_t bytes = kBytesOfWord * words.size();
-    std::vector<int16_t> before = std::exchange(node.words, {words.begin(), words.end()});
+    words = words.first(std::min(words.size(), node.named));
+    const bool picture = all || !node.pictured || words.size() != node.words->size();
+    if (!picture && std::equal(words.begin(), words.end(), node.words->begin())) return;
+    std::shared_ptr<const Words> before =
+        std::exchange(node.words, std::make_shared<const Words>(words.begin(), words.end()));
     node.pictured = true;
     tape_.put_later(
         node.topic, at, bytes,
         [names = node.variables, before = std::move(before), now = node.words, picture, at] {
-            const RecordedVariables changed =
-                picture ? *names : changed_variables(*names, before, now);
-            return format_variables(changed, now, picture, at);
+            std::vector<const RecordedVariable*> told;
+            for (const RecordedVariable& one : *names) {
+                if (picture || has_changed(one, *before, *now)) told.push_back(&one);
+            }
+            return format_variables(told, *now, picture, at);
         });
 }
 
@@ -381,13 +336,7 @@ void Recorder::scene(Time at) {
         objects_ += key_of(object) + "\n";
         shapes.push_back(shape_of(object));
     }
-    std::string update = scene_update(shapes, at);
-    // 1: all entities of this topic before these.
-    const std::string all =
-        fmt::format(R"("deletions":[{{"timestamp":{},"type":1,"id":""}}])", stamp_json(at));
-    update.replace(update.find(R"("deletions":[])"), std::string_view(R"("deletions":[])").size(),
-                   all);
-    tape_.put(scene_, at, std::move(update));
+    tape_.put(scene_, at, whole_scene(shapes, at));
 }
 
 // Faults as they begin and end.

@@ -81,14 +81,18 @@ public:
     std::string check_text(Time at) const;
 
 private:
+    using Words = std::vector<int16_t>;
     struct Node {
         sim::RobotId robot;
         uint16_t id = 0;
         std::string label;  // in topics and checks
         uint16_t topic = 0;
-        std::shared_ptr<const RecordedVariables> variables;  // shared with what is worded
-        const void* program = nullptr;                       // whose variables these are
-        std::vector<int16_t> words;                          // as they were recorded
+        const void* program = nullptr;  // whose variables these are
+        size_t named = 0;               // words, from the first on: behind them none has a name
+        // Both are shared with what is still to be worded. The words are those with names, as they
+        // were recorded.
+        std::shared_ptr<const RecordedVariables> variables;
+        std::shared_ptr<const Words> words = std::make_shared<const Words>();
         bool pictured = false;
     };
 
@@ -101,6 +105,7 @@ private:
     void declare();
     void follow_bus(session::SimSession& session);
     void instant();
+    void samples(Time at);
     void from_outside(hub::LinkId from, const wire::Frame& frame);
     void frame(const wire::Frame& frame, uint32_t number);
     void heard(const debug::Event& event);

@@ -1,6 +1,7 @@
 #include "sim/machine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "fastvm/run.hpp"
@@ -180,15 +181,19 @@ void Machine::run() {
 }
 
 std::string Machine::state() const {
-    std::string bytes;
-    const auto add = [&bytes](uint16_t word) {
-        bytes += static_cast<char>(word & 0xff);
-        bytes += static_cast<char>(word >> 8);
+    const std::array<uint16_t, 3> registers = {node_.vm.flags, node_.vm.pc, node_.vm.depth};
+    const size_t words = registers.size() + node_.vm.depth + variables_.size();
+    // As large as it will be: recordings ask for it each second, of every node.
+    std::string bytes(2 * words + pending_.size(), '\0');
+    auto next = bytes.begin();
+    const auto add = [&next](uint16_t word) {
+        *next++ = static_cast<char>(word & 0xff);
+        *next++ = static_cast<char>(word >> 8);
     };
-    for (const uint16_t word : {node_.vm.flags, node_.vm.pc, node_.vm.depth}) add(word);
+    for (const uint16_t word : registers) add(word);
     for (uint16_t i = 0; i < node_.vm.depth; ++i) add(static_cast<uint16_t>(stack_[i]));
     for (const int16_t word : variables_) add(static_cast<uint16_t>(word));
-    for (const uint8_t event : pending_) bytes += static_cast<char>(event);
+    std::copy(pending_.begin(), pending_.end(), next);
     return bytes;
 }
 

@@ -33,8 +33,8 @@ TEST(Abo, DescriptionIsFedInTheOrderOfTheSpecification) {
 }
 
 TEST(Abo, BytesAreThoseOfSection53) {
-    const std::string bytes =
-        format_abo(small_rover(), {.product_id = 8, .firmware_version = 14, .node_id = 258}, kProgram);
+    const std::string bytes = format_abo(
+        small_rover(), {.product_id = 8, .firmware_version = 14, .node_id = 258}, kProgram);
     const std::string expected(
         "ABO\0"
         "\0\0"      // format version

@@ -114,7 +114,8 @@ TEST(Project, StrictAboutValues) {
               "p.aesl:2:2: \"value\" of the <constant> \"X\" is \"1a\"; write a whole number from "
               "-2147483648 to 2147483647");
     for (const std::string bad : {"", " 1", "0x10", "1.5", "+1", "99999999999999999999"})
-        EXPECT_NE(error_of_project(network("<constant name=\"X\" value=\"" + bad + "\"/>")), "no error")
+        EXPECT_NE(error_of_project(network("<constant name=\"X\" value=\"" + bad + "\"/>")),
+                  "no error")
             << bad;
     EXPECT_EQ(error_of_project(network("<event size=\"1\"/>")),
               "p.aesl:2:1: a <event> has no name; add name=\"…\"");
@@ -148,12 +149,16 @@ TEST(Project, BrokenXmlIsPlacedAndMended) {
               "p.aesl:2:18: this & begins no character that XML knows" + std::string(kFix));
     EXPECT_EQ(error_of_project("<network>\n<node name=\"a\">if x < 2</node></network>"),
               "p.aesl:2:21: this < begins no whole tag" + std::string(kFix));
-    EXPECT_EQ(error_of_project("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
-              "p.aesl:2:21:");
-    EXPECT_NE(error_of_project("<network>\n<node name=\"a\">").find("this is not XML"), std::string::npos);
+    EXPECT_EQ(
+        error_of_project("<network>\n<node name=\"a\">if x <y</node></network>").substr(0, 12),
+        "p.aesl:2:21:");
+    EXPECT_NE(error_of_project("<network>\n<node name=\"a\">").find("this is not XML"),
+              std::string::npos);
     EXPECT_NE(error_of_project("<network></nodes>").find("this is not XML"), std::string::npos);
-    EXPECT_EQ(error_of_project(""), "p.aesl:1:1: the file has no element; a project is a <network>");
-    EXPECT_EQ(error_of_project("<net/>"), "p.aesl:1:1: the file holds a <net>; a project is a <network>");
+    EXPECT_EQ(error_of_project(""),
+              "p.aesl:1:1: the file has no element; a project is a <network>");
+    EXPECT_EQ(error_of_project("<net/>"),
+              "p.aesl:1:1: the file holds a <net>; a project is a <network>");
     EXPECT_EQ(error_of_project("<network/>\n <network/>"),
               "p.aesl:2:2: a second outermost element, <network>; move it into the <network> or "
               "remove it");
@@ -169,10 +174,12 @@ TEST(Project, OnlyXmlCharactersAreRead) {
               "p.aesl:2:1: this byte is not UTF-8; save the file as UTF-8");
     EXPECT_EQ(error_of_project("<network>\x01</network>"),
               "p.aesl:1:10: XML cannot contain a control character; remove it");
-    EXPECT_NE(error_of_project("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"), "no error");
+    EXPECT_NE(error_of_project("<network><node name=\"a\"><![CDATA[\x1f]]></node></network>"),
+              "no error");
     EXPECT_EQ(error_of_project(std::string_view("<network/>\0", 11)).substr(0, 12), "p.aesl:1:11:");
     for (const std::string bad : {"&#0;", "&#1;", "&#xd800;", "&nbsp;", "&#;", "&#x;", "&lt"})
-        EXPECT_NE(error_of_project(network("<node name=\"a\">" + bad + "</node>")), "no error") << bad;
+        EXPECT_NE(error_of_project(network("<node name=\"a\">" + bad + "</node>")), "no error")
+            << bad;
     EXPECT_EQ(error_of_project(network("<!-- & --><node name=\"a\">&#xe9;<![CDATA[ & ]]></node>")),
               "no error");
     EXPECT_EQ(error_of_project("\xef\xbb\xbf<network/>"), "no error");
@@ -186,11 +193,13 @@ TEST(Project, DepthAndSizeAreLimited) {
         return "<network>" + xml + "</network>";
     };
     EXPECT_EQ(error_of_project(nested(kProjectDepthMax)), "no error");
-    EXPECT_NE(error_of_project(nested(kProjectDepthMax + 1)).find("more than 100 deep"), std::string::npos);
+    EXPECT_NE(error_of_project(nested(kProjectDepthMax + 1)).find("more than 100 deep"),
+              std::string::npos);
     EXPECT_NE(error_of_project(nested(500'000)).find("more than 100 deep"), std::string::npos);
     const auto padded = [](size_t size) { return "<network/>" + std::string(size - 10, ' '); };
     EXPECT_EQ(error_of_project(padded(kProjectBytesMax)), "no error");
-    EXPECT_NE(error_of_project(padded(kProjectBytesMax + 1)).find("larger than 8 MB"), std::string::npos);
+    EXPECT_NE(error_of_project(padded(kProjectBytesMax + 1)).find("larger than 8 MB"),
+              std::string::npos);
 }
 
 TEST(Project, EachNodeGetsAScriptOfItsName) {

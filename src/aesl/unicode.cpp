@@ -55,8 +55,9 @@ CodePoint decode(std::string_view text, size_t offset) {
 
 bool is_letter_or_digit(uint32_t c) {
     if (c < 0x80) return (c >= '0' && c <= '9') || ((c | 0x20) >= 'a' && (c | 0x20) <= 'z');
-    const LetterRange* range = std::lower_bound(std::begin(kLetters), std::end(kLetters), c,
-                                          [](const LetterRange& r, uint32_t v) { return r.last < v; });
+    const LetterRange* range =
+        std::lower_bound(std::begin(kLetters), std::end(kLetters), c,
+                         [](const LetterRange& r, uint32_t v) { return r.last < v; });
     return range != std::end(kLetters) && range->first <= c;
 }
 

@@ -35,7 +35,7 @@ Result<Fallen> fall(Bench& bench, const Call& call) {
     return Fallen{ending, pc};
 }
 
-Status division(Bench& bench) {
+Status division_by_zero(Bench& bench) {
     const Fallen fallen = TRY(fall(
         bench, {"math.div", {{9, 9, 9}, {8, 8, 8}, {2, 0, 4}}, {{4, 9, 9}, {8, 8, 8}, {2, 0, 4}}}));
     return bench.is_message(fallen.ending.messages[0], MessageType::DivisionByZero, {fallen.pc});
@@ -119,7 +119,7 @@ void add_native_fault_checks(Checks& checks) {
     const char* const group = "natives";
     checks.insert(
         checks.end(),
-        {{group, "math.div by zero", "4.2", "", division},
+        {{group, "math.div by zero", "4.2", "", division_by_zero},
          {group, "math.muldiv by zero", "4.2", "", muldiv},
          {group, "math.sqrt of a negative number", "2.10-7, 4.2", "", root},
          {group, "deque.get outside tells pc, cells and index", "8 D3", "D3", get_outside},

@@ -164,7 +164,8 @@ TEST_F(ProgramMark, IsNotAskedOfANodeWithoutIt) {
 
 // ---- after a load ----
 
-constexpr const char* kShortUpload = "10 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 00 00";
+constexpr const char* kShortUpload =
+    "10 00 00 00 01 a0 01 00 00 00 03 00 ff ff 03 00 01 10 64 40 00 00";
 
 class LoadedMark : public ProgramMark {
 protected:

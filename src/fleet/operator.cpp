@@ -7,7 +7,7 @@
 namespace vagus::fleet {
 namespace {
 
-constexpr const char* kEchoId = "echo";         // id of a message of our own that comes back
+constexpr const char* kEchoId = "echo";       // id of a message of our own that comes back
 constexpr uint64_t kEchoNumber = UINT64_MAX;  // of its post: unlike that of any order
 
 }  // namespace

@@ -8,13 +8,13 @@
 namespace vagus::fleet {
 namespace {
 
-struct Read {
+struct ReadPart {
     ProjectPart part;
     Complaints complaints;
 };
 
-Read read(const std::string& text) {
-    Read result;
+ReadPart read_part(const std::string& text) {
+    ReadPart result;
     const JsonValue json = parse_json(text, "f").value();
     JsonObject in(json, "the project", result.complaints);
     result.part = read_project_part(in, result.complaints);
@@ -30,7 +30,8 @@ std::string list(size_t count, const std::string& before = "e", const std::strin
 }
 
 TEST(ProjectPart, HasWhatTheFileSays) {
-    const Read all = read(R"({"fleet": {"name": "lab", "groups": ["red"], "send": ["alarm"],
+    const ReadPart all =
+        read_part(R"({"fleet": {"name": "lab", "groups": ["red"], "send": ["alarm"],
         "hear": ["go", {"event": "alarm", "from": "red"}], "tell": ["drive.odometry.x"],
         "broker_lost": "continue", "x": 1}})");
     EXPECT_TRUE(all.complaints.empty());
@@ -40,22 +41,22 @@ TEST(ProjectPart, HasWhatTheFileSays) {
                                      .hear = {{"go", ""}, {"alarm", "red"}},
                                      .tell = {{"drive", "odometry.x"}},
                                      .broker_lost = BrokerLost::Continue}));
-    EXPECT_EQ(read("{}").part, ProjectPart{});
-    EXPECT_EQ(read(R"({"fleet": {}})").part.broker_lost, BrokerLost::Stop);
+    EXPECT_EQ(read_part("{}").part, ProjectPart{});
+    EXPECT_EQ(read_part(R"({"fleet": {}})").part.broker_lost, BrokerLost::Stop);
 }
 
 TEST(ProjectPart, ItsConditionOfBeingWellIsAFormula) {
-    const Read all =
-        read(R"x({"fleet": {"healthy": {"condition": "a > node('d', 'b')", "for": 5}}})x");
+    const ReadPart all =
+        read_part(R"x({"fleet": {"healthy": {"condition": "a > node('d', 'b')", "for": 5}}})x");
     EXPECT_TRUE(all.complaints.empty());
     EXPECT_EQ(all.part.healthy, (Healthy{"a > node('d', 'b')", 5s}));
-    EXPECT_EQ(read(R"({"fleet": {"healthy": {"condition": "a"}}})").part.healthy,
+    EXPECT_EQ(read_part(R"({"fleet": {"healthy": {"condition": "a"}}})").part.healthy,
               (Healthy{"a", 3s}));
-    EXPECT_EQ(read(R"({"fleet": {}})").part.healthy, std::nullopt);
+    EXPECT_EQ(read_part(R"({"fleet": {}})").part.healthy, std::nullopt);
 }
 
 std::string complaint_of(const std::string& healthy) {
-    const Read all = read(R"({"fleet": {"healthy": )" + healthy + "}}");
+    const ReadPart all = read_part(R"({"fleet": {"healthy": )" + healthy + "}}");
     return all.complaints.empty() ? "" : first_complaint(all.complaints, "f").what;
 }
 
@@ -84,7 +85,7 @@ TEST(ProjectPart, WhatIsWrongWithTheConditionHasItsPlace) {
 
 TEST(ProjectPart, WhatIsWrongHasItsPlace) {
     const auto first = [](const std::string& text) {
-        const Read all = read(text);
+        const ReadPart all = read_part(text);
         return all.complaints.empty() ? "" : first_complaint(all.complaints, "f").what;
     };
     EXPECT_EQ(first(R"({"fleet": {"send": [7]}})"),
@@ -105,7 +106,7 @@ TEST(ProjectPart, WhatIsWrongHasItsPlace) {
 
 TEST(ProjectPart, ListsHaveLimits) {
     const auto faults = [](const char* key, const std::string& items) {
-        return read(fmt::format(R"({{"fleet": {{"{}": {}}}}})", key, items)).complaints.size();
+        return read_part(fmt::format(R"({{"fleet": {{"{}": {}}}}})", key, items)).complaints.size();
     };
     EXPECT_EQ(faults("groups", list(kGroupsMax)), 0u);
     EXPECT_EQ(faults("groups", list(kGroupsMax + 1)), 1u);

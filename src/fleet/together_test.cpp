@@ -8,7 +8,7 @@ namespace vagus::fleet {
 namespace {
 
 using Client = TestBroker::Client;
-using MemberState = Member::MemberState;
+using MemberState = Member::Standing;
 
 MemberOptions robot(const std::string& name, const std::string& instance, int64_t epoch = 1) {
     return {.fleet = "lab",

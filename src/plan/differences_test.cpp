@@ -190,7 +190,8 @@ private:
         return fmt::format(
             "{{ \"template\": {}, \"in\": {{{}}}, \"out\": {{{}}}, \"states\": {{{}}}, "
             "\"supervisors\": {{{}}} }}",
-            word(), list(&PairMaker::word, "i"), list(&PairMaker::word, "o"), list(&PairMaker::word, "s"),
+            word(), list(&PairMaker::word, "i"), list(&PairMaker::word, "o"),
+            list(&PairMaker::word, "s"),
             list(&PairMaker::supervisor, fmt::format("n{}_", number % 6)));
     }
 

@@ -41,9 +41,10 @@ const std::string kGeneratedInner = R"({
 class Generated : public testing::Test {
 protected:
     Generated()
-        : checked_(check("main.plan.json",
-                         ChangeTexts({{"main.plan.json", kClass}, {"inner.plan.json", kGeneratedInner}}),
-                         change_library())) {
+        : checked_(
+              check("main.plan.json",
+                    ChangeTexts({{"main.plan.json", kClass}, {"inner.plan.json", kGeneratedInner}}),
+                    change_library())) {
         EXPECT_TRUE(checked_.ok()) << format_findings_json(checked_.findings);
     }
     // Those of one element, by the keys that lead to it.

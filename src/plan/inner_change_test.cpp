@@ -78,10 +78,10 @@ TEST(HotChange, WhileTheOuterChangesASharedVariableStaysOne) {
 
 TEST(HotChange, BothFilesTogetherAreOneChangeAndANewSharedVariableIsTheCallers) {
     InsideTheInnerPlan run;
-    const std::string outer =
-        with(kChangedOuter, R"("given": {)", R"("more": { "type": "int", "initial": 6 }, "given": {)");
-    const std::string inner =
-        with(kChangedInner, R"("own": {)", R"("more": { "type": "int", "access": "shared" }, "own": {)");
+    const std::string outer = with(kChangedOuter, R"("given": {)",
+                                   R"("more": { "type": "int", "initial": 6 }, "given": {)");
+    const std::string inner = with(kChangedInner, R"("own": {)",
+                                   R"("more": { "type": "int", "access": "shared" }, "own": {)");
     EXPECT_THAT(run.change(Texts{{"o.plan.json", outer}, {"inner.plan.json", inner}}), IsEmpty());
     EXPECT_THAT(run.trace(),
                 ElementsAre("Outer change", "Outer write more 6 change", "Outer/call change"));
@@ -137,7 +137,8 @@ TEST(HotChange, WhatAnInnerPlanGivesIsOfItsNewestVersion) {
     Running run(nested());
     run.begin();
     run.begin();
-    const std::string next = with(kChangedInner, R"("to": {)", R"("pad": { "type": "int" }, "to": {)");
+    const std::string next =
+        with(kChangedInner, R"("to": {)", R"("pad": { "type": "int" }, "to": {)");
     EXPECT_THAT(run.change(Texts{{"inner.plan.json", next}}), IsEmpty());
     run.end(21);  // its output "to"
     run.end_sub_plan();

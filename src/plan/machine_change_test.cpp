@@ -115,8 +115,9 @@ TEST(HotChange, TargetsAreThoseOfTheNewVersionAtOnce) {
     EXPECT_EQ(by_state.trace().back(), "Main write way 0 drive");
     EXPECT_EQ(by_state.machine().actor_at(0)->name, "rest");
 
-    const std::string own = with(kChangedMain, R"("out": { "what": "n" }, "events": { "Seen": "turn" })",
-                                 R"("out": { "what": "n" }, "events": { "Seen": "rest" })");
+    const std::string own =
+        with(kChangedMain, R"("out": { "what": "n" }, "events": { "Seen": "turn" })",
+             R"("out": { "what": "n" }, "events": { "Seen": "rest" })");
     Running by_own(kChangedMain);
     by_own.begin();
     EXPECT_THAT(by_own.change(own), IsEmpty());
@@ -144,7 +145,8 @@ TEST(HotChange, WhatAnActivationWasStartedWithStaysUntilItsEnd) {
     next = with(next, R"("in": { "speed": "n" })", R"("in": { "speed": "n + 300" })");
     next = with(next, R"("wall": {)",
                 R"("more": { "template": "See", "events": { "Seen": "rest" } }, "wall": {)");
-    Running run(kChangedMain);  // drive is active, and its begin is due: it was started with the old one
+    Running run(
+        kChangedMain);  // drive is active, and its begin is due: it was started with the old one
     EXPECT_THAT(run.change(next), IsEmpty());
     EXPECT_FALSE(run.watches("more"));
     EXPECT_EQ(run.limit_of("wall"), "6");

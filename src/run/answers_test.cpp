@@ -24,7 +24,7 @@ void add_test_code(CodeLibrary& library) {
     library.add("core", "", std::move(all));
 }
 
-const std::string kPlan = R"({ "format": "vagus-plan/1", "name": "Main",
+const std::string kAnsweredPlan = R"({ "format": "vagus-plan/1", "name": "Main",
   "configuration": { "n": { "type": "int", "initial": 0, "access": "out" } },
   "start": { "actor": "a", "supervisors": {
     "hear": { "template": "Hear", "events": { "Seen": "b" } } } },
@@ -37,7 +37,7 @@ class AnswersTest : public testing::Test {
 protected:
     AnswersTest() {
         add_test_code(library_);
-        graph_ = test_graph(kPlan, library_);
+        graph_ = test_graph(kAnsweredPlan, library_);
     }
 
     Result<Answers> read(const std::string& json) {

@@ -22,7 +22,8 @@ protected:
         describe(kDriveNode, "drive", "tick", "id");
         describe(kBumperNode, "bumper", "tick", "_program");
         describe(kArmNode, "arm", "halted", "_program");
-        for (const debug::NodeId id : {kDriveNode, kBumperNode, kArmNode}) bus_.state(id, 0, kRunning);
+        for (const debug::NodeId id : {kDriveNode, kBumperNode, kArmNode})
+            bus_.state(id, 0, kRunning);
         bus_.forget();
         brake_.begin(bus_.network);
     }

@@ -40,7 +40,7 @@ WorldDefinition in_chaos() {
 }
 
 World made_with(const WorldDefinition& definition, std::vector<ChaosFault> faults,
-           WorldOptions options = {}) {
+                WorldOptions options = {}) {
     options.chaos.faults = std::move(faults);
     Result<World> world = World::create(definition, options);
     EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);

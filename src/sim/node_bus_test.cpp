@@ -40,9 +40,9 @@ wire::Frame event_of_zeros(uint16_t source) {
 }
 
 // A host on the bus.
-class Host {
+class BusHost {
 public:
-    explicit Host(World& world) : hub_(world.bus()), link_(hub_.add({.name = "host"}).value()) {}
+    explicit BusHost(World& world) : hub_(world.bus()), link_(hub_.add({.name = "host"}).value()) {}
 
     void send(const wire::Frame& frame) { hub_.receive(link_, frame); }
     void list_nodes() {
@@ -68,7 +68,7 @@ private:
 // then and arrive at 2 ms, the lower identifier first.
 TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
     World world = made_on_bus(with_thymios({7, 3}), can());
-    Host host(world);
+    BusHost host(world);
     host.list_nodes();
     world.step(1ms);
     EXPECT_TRUE(host.frames().empty());
@@ -83,8 +83,8 @@ TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
 // every node.
 TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
     World world = made_on_bus(with_thymios({3, 7}), can());
-    Host host(world);
-    Host flood(world);
+    BusHost host(world);
+    BusHost flood(world);
     const auto flood_for = [&](int milliseconds) {
         for (int i = 0; i < milliseconds; ++i) {
             for (int k = 0; k < 20; ++k) flood.send(event_of_zeros(1));
@@ -111,7 +111,7 @@ TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
 
 TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
     World world = made_on_bus(with_thymios({7, 3}), {});
-    Host host(world);
+    BusHost host(world);
     host.list_nodes();
     world.step(1ms);
     EXPECT_EQ(host.frames().size(), 2u);
@@ -120,8 +120,8 @@ TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
 
 TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
     World world = made_on_bus(with_thymios({1}), can());
-    Host one(world);
-    Host two(world);
+    BusHost one(world);
+    BusHost two(world);
     one.send(event_of_zeros(0));
     EXPECT_EQ(two.frames().size(), 1u);  // the hub's business, not the bus's
     world.step(1ms);
@@ -145,7 +145,7 @@ TEST(NodeBus, NodesOfSeveralRobotsAreToldApartByTheirRobot) {
 // goes, one after the other.
 TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
     World world = made_on_bus(with_thymios({1}), can());
-    Host host(world);
+    BusHost host(world);
     for (int i = 0; i < 2000; ++i) host.send(event_of_zeros(0));
     world.step(10ms);
     // Not as many as fit: the rest of each millisecond is for nodes.
@@ -158,7 +158,7 @@ TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
 
 TEST(NodeBus, AFrameThatFitsNoIdentifierIsCountedAsDropped) {
     World world = made_on_bus(with_thymios({1}), can());
-    Host host(world);
+    BusHost host(world);
     host.send(event_of_zeros(256));
     world.step(1ms);
     EXPECT_EQ(world.bus_load()->nodes[0].load.dropped, 1u);
@@ -177,7 +177,7 @@ TEST(NodeBus, ANodeIdBeyondEightBitsIsRefused) {
 // While the world is held, scripts are loaded: no time passes, and nothing is counted.
 TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
     World world = made_on_bus(with_thymios({1, 2}), can());
-    Host host(world);
+    BusHost host(world);
     host.list_nodes();
     world.hold_instant();
     EXPECT_EQ(host.frames().size(), 2u);
@@ -187,7 +187,7 @@ TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
 
 TEST(NodeBus, AResetForgetsWhatWasUnderWay) {
     World world = made_on_bus(with_thymios({1}), can());
-    Host host(world);
+    BusHost host(world);
     world.step(5ms);
     host.list_nodes();
     world.reset();

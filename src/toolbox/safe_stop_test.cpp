@@ -50,7 +50,8 @@ TEST(SafeStop, ReadsNumbersListsAndWhatMustReadZero) {
 }
 
 TEST(SafeStop, NamesWhatIsWrongAndWhere) {
-    EXPECT_EQ(error_of_safe_stop("[]"), "f:1:16: \"safe_stop\" of the project is an array; write an object");
+    EXPECT_EQ(error_of_safe_stop("[]"),
+              "f:1:16: \"safe_stop\" of the project is an array; write an object");
     EXPECT_EQ(error_of_safe_stop(R"({ "a": { "sett": {} } })"),
               "f:1:25: \"a\" in \"safe_stop\" has the unknown key \"sett\"; did you mean \"set\"?");
     EXPECT_EQ(error_of_safe_stop(R"({ "a": { "set": { "v": 1.5 } } })"),
@@ -90,20 +91,25 @@ TEST(SafeStop, EachListHasItsLimit) {
     EXPECT_EQ(error_of_safe_stop(list(kSafeStopNodesMax + 1, "{", node, "}")),
               "f:1:16: \"safe_stop\": expected at most 64 nodes, found 65; remove some");
     const auto set = [](size_t i) { return quoted(i) + ": 0"; };
-    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"set\": {", set, "}}}")), "no error");
-    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax + 1, "{\"a\": {\"set\": {", set, "}}}")),
-              "f:1:30: \"set\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
-              "remove some");
-    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"read\": [", quoted, "]}}")),
+    EXPECT_EQ(error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"set\": {", set, "}}}")),
               "no error");
+    EXPECT_EQ(
+        error_of_safe_stop(list(kSafeStopVariablesMax + 1, "{\"a\": {\"set\": {", set, "}}}")),
+        "f:1:30: \"set\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
+        "remove some");
+    EXPECT_EQ(
+        error_of_safe_stop(list(kSafeStopVariablesMax, "{\"a\": {\"read\": [", quoted, "]}}")),
+        "no error");
     EXPECT_EQ(
         error_of_safe_stop(list(kSafeStopVariablesMax + 1, "{\"a\": {\"read\": [", quoted, "]}}")),
         "f:1:31: \"read\" of \"a\" in \"safe_stop\": expected at most 64 variables, found 65; "
         "remove some");
     const auto zero = [](size_t) { return std::string("0"); };
-    EXPECT_EQ(error_of_safe_stop(list(kSafeStopValuesMax, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
-              "no error");
-    EXPECT_EQ(error_of_safe_stop(list(kSafeStopValuesMax + 1, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
+    EXPECT_EQ(
+        error_of_safe_stop(list(kSafeStopValuesMax, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
+        "no error");
+    EXPECT_EQ(error_of_safe_stop(
+                  list(kSafeStopValuesMax + 1, "{\"a\": {\"set\": {\"v\": [", zero, "]}}}")),
               "f:1:36: \"v\" in \"safe_stop\": expected 1 to 64 values, found 65; remove some");
     const std::string longest(kSafeStopNameBytesMax, 'n');
     EXPECT_EQ(error_of_safe_stop("{\"" + longest + "\": {}}"), "no error");

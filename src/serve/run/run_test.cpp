@@ -395,6 +395,5 @@ TEST_F(RunTest, WhereThingsStillAreIsNotSentAgain) {
     EXPECT_EQ(tell(3, "moved by hand"), 1u);
 }
 
-
 }  // namespace
 }  // namespace vagus::serve

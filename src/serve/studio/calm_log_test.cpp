@@ -8,13 +8,13 @@
 namespace vagus::serve {
 namespace {
 
-struct Fixture {
+struct CalmFixture {
     std::vector<std::string> lines;
     CalmLog log{[this](const std::string& line) { lines.push_back(line); }};
 };
 
 TEST(CalmLog, EqualLinesAreOneAndTheirNumber) {
-    Fixture f;
+    CalmFixture f;
     for (int i = 0; i < 1000; ++i) f.log.add("a wrong token", 1s);
     EXPECT_EQ(f.lines, std::vector<std::string>{"a wrong token"});
     f.log.tick(11s);
@@ -25,7 +25,7 @@ TEST(CalmLog, EqualLinesAreOneAndTheirNumber) {
 }
 
 TEST(CalmLog, LinesOfASecondAreBounded) {
-    Fixture f;
+    CalmFixture f;
     for (size_t i = 0; i <= kLogLinesASecond; ++i) f.log.add(std::to_string(i), 1s);
     EXPECT_EQ(f.lines.size(), kLogLinesASecond);
     f.log.tick(2s);
@@ -35,7 +35,7 @@ TEST(CalmLog, LinesOfASecondAreBounded) {
 }
 
 TEST(CalmLog, LinesByTurnsAreBoundedToo) {
-    Fixture f;
+    CalmFixture f;
     for (int i = 0; i < 1000; ++i) f.log.add(i % 4 < 2 ? "one" : "other", 1s);
     EXPECT_EQ(f.lines.size(), kLogLinesASecond);
 }

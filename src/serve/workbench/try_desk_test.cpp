@@ -12,7 +12,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kTriedPlan = R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "wait"},
+const std::string kTriedPlan =
+    R"({"format": "vagus-plan/1", "name": "P", "start": {"actor": "wait"},
     "actors": {"wait": {"template": "Wait", "in": {"seconds": 1},
                         "states": {"Done": "@terminate"}}}})";
 

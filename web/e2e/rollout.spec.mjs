@@ -103,6 +103,13 @@ test(
       handsOn(again.page).panel.getByText(/^the studio that gave it ended before it was over/),
     );
     await seen(again.page.getByRole('button', { name: 'Roll back' }));
+    await reads(handsOn(again.page).row('r1'), /^started: its condition .* is not true: .* = 2$/);
+    await again.page.getByRole('option', { name: /^r1 running/ }).click();
+    await again.page.getByRole('button', { name: 'Set a variable' }).click();
+    await again.page.getByLabel('Variable').fill('thymio-II.edition');
+    await again.page.getByLabel('Value').fill('3');
+    await again.page.keyboard.press('Enter');
+    await reads(handsOn(again.page).row('r1'), 'well');
     studio.complaints.length = 0; // the window of the server that was killed
   },
 );

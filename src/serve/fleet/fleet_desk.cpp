@@ -122,6 +122,7 @@ Status FleetDesk::open(const FleetOptions& options, Time now) {
     target_ = to_string(link.target);
     host_ = link.target.host;
     link_ = connect_(std::move(link));
+    rollouts_.enter(target_);
     return Status::done();
 }
 

@@ -72,7 +72,9 @@ public:
     Status roll_back(const Order& order, Time now);
     // No other robot gets it, and it is served no longer.
     Status stop(const std::string& by);
-    // The fleet is closed: what is said there is heard no longer, either.
+    // A fleet is opened: of the last roll-out there it is heard what becomes of its robots.
+    void enter(const std::string& target);
+    // It is closed: what is said there is heard no longer, either.
     void leave(const std::string& why);
 
     void hear(const fleet::LinkEvent& event, Time now);
@@ -86,7 +88,6 @@ private:
                 const vagus::Result<PackedVersion>& version, const Done& done);
     void start(fleet::Rollout::Options options, std::unique_ptr<Shelf> shelf);
     void halt(const std::string& why);
-    void hear_of_kept(const fleet::LinkEvent& event);
     void end(const char* state, const std::string& why);
     void changed();
     void keep();

@@ -8,7 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
 import projects  # noqa: E402
 from harness import GIVE_UP_AFTER, vagus  # noqa: E402
-from page import Studio  # noqa: E402
+from page import Refused, Studio  # noqa: E402
 
 
 class Versions(Case):
@@ -148,6 +148,18 @@ class FromTheStudio(Versions):
         self.do("set", "r1", "thymio-II.edition", 3)
         page.wait(lambda: rollout.value["robots"]["r1"]["is"] == "well", "that it is well")
         self.assertEqual(rollout.value["robots"]["r1"]["why"], "")
+
+    def test_unsaved_changes_are_left_out_only_by_name(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        page, fleet, rollout = self.page(self.studio(self.version()))
+        page.wait(lambda: "r1" in fleet.value["robots"], "the robot")
+        page.edit("robot.aesl", (0, 0, "\n"))
+        with self.assertRaisesRegex(Refused, "robot.aesl has unsaved changes"):
+            page.do("fleet.deploy", robots=["r1"])
+        page.do("fleet.deploy", robots=["r1"], without=["robot.aesl"])
+        page.wait(lambda: rollout.value["state"] == "well", "the end")
 
     def test_who_may_only_look_is_told_why(self):
         self.broker("r1")

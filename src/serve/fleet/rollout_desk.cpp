@@ -46,6 +46,18 @@ Place place_of_word(const std::string& word) {
     return Place::Later;
 }
 
+// Nobody deploys less than they see on their screen without knowing it.
+Status check_unsaved(const OpenVersion& version, const std::vector<std::string>& without) {
+    for (const std::string& file : version.unsaved) {
+        if (std::ranges::find(without, file) != without.end()) continue;
+        return Error{Code::Refused,
+                     fmt::format("{} has unsaved changes, which robots would not get; save it, or "
+                                 "deploy without them",
+                                 file)};
+    }
+    return Status::done();
+}
+
 Json robots_of(const std::vector<fleet::Rollout::Line>& lines) {
     Json robots = Json::object();
     for (size_t at = 0; at < lines.size(); ++at) {
@@ -88,6 +100,8 @@ void RolloutDesk::begin(Order order, Time now, Done done) {
     if (!steps.ok()) return done(steps.error());
     const auto version = places_.version();
     if (!version) return done(Error{Code::NotFound, kNoProject});
+    const Status decided = check_unsaved(*version, order.without);
+    if (!decided.ok()) return done(decided.error());
     if (places_.shelf.listen.empty() && !order.broker_is_here) {
         return done(Error{Code::Refused, kNoAddress});
     }

@@ -39,7 +39,8 @@ struct PackedVersion {
 // The project that is open.
 struct OpenVersion {
     std::string name;
-    std::function<Result<PackedVersion>()> pack;  // called on another thread
+    std::vector<std::string> unsaved = {};        // its files whose changes are not on disk
+    std::function<Result<PackedVersion>()> pack;  // called on another thread; what is on disk
 };
 
 struct RolloutPlaces {
@@ -58,6 +59,7 @@ public:
         bool broker_is_here = false;           // on this computer: so are robots
         std::vector<std::string> robots = {};  // in this order
         std::string steps = fleet::kStepsUnlessTold;
+        std::vector<std::string> without = {};  // files whose unsaved changes are not part of it
         std::string by = {};
     };
     using Done = std::function<void(const Status& begun)>;

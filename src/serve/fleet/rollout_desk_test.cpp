@@ -24,7 +24,7 @@ protected:
         };
         return {.version =
                     [this, packed] {
-                        return is_open ? std::optional(OpenVersion{"Rover", packed})
+                        return is_open ? std::optional(OpenVersion{"Rover", unsaved, packed})
                                        : std::nullopt;
                     },
                 .file = (std::filesystem::path(folder) / "rollout.json").string()};
@@ -88,6 +88,7 @@ protected:
 
     const vagus::test::Folder folder;
     bool is_open = true;
+    std::vector<std::string> unsaved;
     uint32_t watches = 0;
     fleet::Want want;
     std::optional<RolloutDesk> rollouts{std::in_place, desk, places()};
@@ -242,6 +243,20 @@ TEST_F(RolloutDeskTest, WhatCannotBeBegunSaysWhatIsMissing) {
               "no project is open, whose version robots could get; open one beside the fleet");
     EXPECT_FALSE(document().contains("project"));
     EXPECT_EQ(wanted(), Names{});
+}
+
+// Of those that were changed since a person has looked nobody has decided.
+TEST_F(RolloutDeskTest, UnsavedChangesAreLeftOutOnlyIfTheyAreNamed) {
+    unsaved = {"a.aesl", "b.aesl"};
+    auto some = order();
+    some.without = {"a.aesl"};
+    EXPECT_EQ(begin(some),
+              "b.aesl has unsaved changes, which robots would not get; save it, or deploy without "
+              "them");
+    EXPECT_EQ(wanted(), Names{});
+    some.without = {"b.aesl", "a.aesl", "c.aesl"};
+    EXPECT_EQ(begin(some), "");
+    EXPECT_EQ(wanted(), Names{"r1"});
 }
 
 TEST_F(RolloutDeskTest, ALoginThatMayNotWantAnythingIsTheReason) {

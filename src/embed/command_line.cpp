@@ -93,6 +93,13 @@ int print_help(std::string_view program, std::string_view help) {
     return kExitFailed;
 }
 
+void say_listening(const std::string& target, const RunWords& words) {
+    const std::string line = fmt::format("listening {}\n", target);
+    if (words.traces_on_stdout()) return write_to_stderr(line);
+    std::fputs(line.c_str(), stdout);
+    std::fflush(stdout);
+}
+
 int run_with(MakePlan make, const run::CodeLibrary& library, toolbox::Parts& parts,
              const std::string& program, const Words& words) {
     const LoadedPlan plan = LoadedPlan::from_code(make, library);
@@ -106,8 +113,7 @@ int run_with(MakePlan make, const run::CodeLibrary& library, toolbox::Parts& par
     const auto prepared = PreparedRun::prepare(plan, words.run, parts);
     if (!prepared.ok()) return complain(program, prepared.error().what);
     const std::string listening = prepared.value()->listening();
-    if (!listening.empty()) std::printf("listening %s\n", listening.c_str());
-    std::fflush(stdout);
+    if (!listening.empty()) say_listening(listening, words.run);
     prepared.value()->end_when_stopped();
     prepared.value()->brake_as_a_whole();
     const net::EndWatcher end_watcher(

@@ -32,6 +32,9 @@ struct RunWords {
     std::string listen = {};     // where the bus of the world is open for others
     std::string bus = {};        // a target (docs/formats.md)
     std::string project = {};    // an .aesl: names of events for `bus`
+
+    // Then stdout is for the trace alone, and all else is said on stderr: it is for one reader.
+    bool traces_on_stdout() const { return trace == "-" || trace_all == "-"; }
 };
 
 struct RunOption {

@@ -23,6 +23,12 @@ std::optional<size_t> read_step(std::string_view text, size_t robots) {
     return std::min(percent ? (robots * number + 99) / 100 : number, robots);
 }
 
+std::vector<std::string> names_of(const std::vector<Rollout::Line>& lines) {
+    std::vector<std::string> names;
+    for (const Rollout::Line& line : lines) names.push_back(line.robot);
+    return names;
+}
+
 }  // namespace
 
 Result<std::vector<size_t>> read_steps(const std::string& text, size_t robots) {
@@ -45,10 +51,22 @@ Rollout::Rollout(Options options) : options_(std::move(options)) {
     for (const std::string& robot : options_.robots) robots_[robot];
 }
 
+Rollout::Rollout(int64_t number, const std::vector<Line>& left)
+    : options_{.want = {.number = number}, .robots = names_of(left)}, only_hears_(true) {
+    ended_ = true;
+    for (const Line& line : left) {
+        robots_[line.robot] = {.place = line.place,
+                               .until = Time::max(),
+                               .lacks = line.place == Place::Started && !line.why.empty(),
+                               .why = line.why,
+                               .has = line.has};
+    }
+}
+
 void Rollout::hear(const LinkEvent& event, Time now) {
     now_ = now;
     // What was said while there was no connection did not arrive.
-    if (std::holds_alternative<Connected>(event)) {
+    if (std::holds_alternative<Connected>(event) && !only_hears_) {
         for (const auto& [name, robot] : robots_) {
             if (robot.place == Place::Wanted || robot.silent) want_of(name);
         }
@@ -62,10 +80,17 @@ void Rollout::hear(const LinkEvent& event, Time now) {
     if (const auto* state = std::get_if<State>(&message)) hear_state(found->second, *state);
 }
 
+// Whether its next word says what came of the wish. Of a roll-out that was left nobody knows what
+// its robots have said since: only one that is well is done.
+bool Rollout::may_change(const Robot& robot) const {
+    if (only_hears_) return robot.place != Place::Well && robot.until == Time::max();
+    return robot.place == Place::Wanted || robot.silent;
+}
+
 // A robot that was told twice tells once more what came of it.
 void Rollout::hear_version(Robot& robot, const Version& version) {
     if (version.number != options_.want.number || version.result == "taken") return;
-    if (robot.place == Place::Wanted || robot.silent) {
+    if (may_change(robot)) {
         robot.silent = false;
         robot.has = version.result != "refused" && version.result != "rolled_back";
         if (version.result != "started") return fail(robot, version.result + ": " + version.why);
@@ -106,7 +131,9 @@ void Rollout::pass(Robot& robot) {
 }
 
 Time Rollout::next_of(const Robot& robot) const {
-    if (robot.place == Place::Started && robot.lacks) return robot.begun + options_.within;
+    if (robot.place == Place::Started && robot.lacks) {
+        return only_hears_ ? Time::max() : robot.begun + options_.within;
+    }
     const bool waits = robot.place == Place::Wanted || robot.place == Place::Started;
     return waits ? robot.until : Time::max();
 }

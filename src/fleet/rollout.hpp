@@ -29,6 +29,16 @@ class Rollout {
 public:
     enum class Place { Later, Wanted, Started, Well, Failed };
 
+    // What became of a robot; `why` of Failed, and of Started what its project's condition
+    // lacks.
+    struct Line {
+        std::string robot;
+        Place place = Place::Later;
+        std::string why = {};
+        bool has = false;  // the version is in force there
+        friend bool operator==(const Line&, const Line&) = default;
+    };
+
     struct Options {
         std::string fleet = {};
         Want want = {};
@@ -38,6 +48,9 @@ public:
         Duration within = 60s;
     };
     explicit Rollout(Options options);
+    // The one of this number that another program gave and left: where its robots were. It is only
+    // heard what becomes of them, without a deadline, because nobody knows when they started.
+    Rollout(int64_t number, const std::vector<Line>& left);
 
     // Also what was said before it began.
     void hear(const LinkEvent& event, Time now);
@@ -51,15 +64,7 @@ public:
     // find it, and its line says so.
     bool is_over() const;
     bool all_are_well() const;
-    // What became of each robot, in their order; `why` of Failed, and of Started what its project's
-    // condition lacks.
-    struct Line {
-        std::string robot;
-        Place place = Place::Later;
-        std::string why = {};
-        bool has = false;  // the version is in force there
-        friend bool operator==(const Line&, const Line&) = default;
-    };
+    // In their order.
     std::vector<Line> table() const;
     const Want& want() const { return options_.want; }
 
@@ -73,6 +78,7 @@ private:
         bool silent = false;  // Failed: it did not answer
         bool has = false;
     };
+    bool may_change(const Robot& robot) const;
     void hear_version(Robot& robot, const Version& version);
     void hear_state(Robot& robot, const State& state);
     void pass(Robot& robot);
@@ -82,6 +88,7 @@ private:
     void want_of(const std::string& robot);
 
     const Options options_;
+    const bool only_hears_ = false;
     std::map<std::string, Robot> robots_;
     bool ended_ = false;
     size_t step_ = 0;    // the next one

@@ -22,7 +22,8 @@ TEST(Steps, AreNumbersOrPercentAndEndWithAll) {
 
 class RolloutCase {
 public:
-    RolloutCase() : rollout({"lab", kWant, {"r1", "r2", "r3"}, {1, 3}, 60s}) { pass(0s); }
+    RolloutCase() : RolloutCase(Rollout({"lab", kWant, {"r1", "r2", "r3"}, {1, 3}, 60s})) {}
+    explicit RolloutCase(Rollout made) : rollout(std::move(made)) { pass(0s); }
 
     static inline const Want kWant{7, "ab", "https://desk/x", false};
 
@@ -180,6 +181,31 @@ TEST(Rollout, AFaultCountsWhateverTheConditionSays) {
     c.lacks("r1", "not_yet", "battery = 12");
     c.is("r1", "fault");
     EXPECT_EQ(c.line(0), "failed: a fault: stuck");
+}
+
+// A studio was killed: nobody knows when its robots started, and nobody gets it any more.
+TEST(Rollout, OfOneThatWasLeftItIsHeardWhatBecomesOfItsRobots) {
+    using Place = Rollout::Place;
+    const std::vector<Rollout::Line> left = {{"r1", Place::Started, "battery = 12", true},
+                                             {"r2", Place::Wanted, "", false},
+                                             {"r3", Place::Well, "", true}};
+    RolloutCase c(Rollout(7, left));
+    EXPECT_EQ(c.rollout.table(), left);
+    c.rollout.hear(Connected{}, c.now);
+    c.pass(1000s);
+    EXPECT_EQ(c.wanted(), Texts{});
+    EXPECT_EQ(c.rollout.table(), left);
+    c.lacks("r1", "not_yet", "battery = 15");
+    c.pass(1000s);
+    EXPECT_EQ(c.line(0), "started: battery = 15");
+    c.lacks("r1", "well", "battery = 21");
+    c.tells("r2", "started");
+    c.pass(kHealthyFor);
+    EXPECT_EQ(c.line(0), "well");
+    EXPECT_EQ(c.line(1), "well");
+    EXPECT_TRUE(c.rollout.table()[1].has);
+    c.is("r3", "fault");
+    EXPECT_EQ(c.line(2), "failed: a fault: stuck");
 }
 
 TEST(Rollout, WhatCameOfAnotherOneSaysNothing) {

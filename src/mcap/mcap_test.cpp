@@ -156,6 +156,42 @@ TEST(Mcap, AChunkLargerThanTheLimitIsNotUnpacked) {
               "bytes, more than 268435456; what was recorded before it can be used");
 }
 
+// As a mapped file reads from where somebody has cut it off (base/lost_pages.hpp).
+TEST(Mcap, ZerosInsteadOfChunksAreNoEmptyChunks) {
+    Written written = write_some(true);
+    ASSERT_GE(written.flushed.size(), 2u);
+    const auto reader = Reader::open(written.bytes, "cut.mcap");
+    ASSERT_TRUE(reader.value().is_complete());
+    const auto from = static_cast<std::ptrdiff_t>(written.flushed[0]);
+    std::fill(written.bytes.begin() + from, written.bytes.end(), '\0');
+    Cursor cursor(reader.value());
+    size_t count = 0;
+    while (cursor.next()) ++count;
+    EXPECT_EQ(count, written.until[0]);
+    ASSERT_TRUE(cursor.is_damaged());
+    EXPECT_NE(cursor.trouble()->what.find("it says that it is empty"), std::string::npos);
+}
+
+// Its writer was killed: that is no damage, unless something follows.
+TEST(Mcap, ALastChunkThatIsNotWholeIsNoDamageOfAFileWithoutAnEnd) {
+    const Written written = write_some(true);
+    ASSERT_GE(written.flushed.size(), 2u);
+    std::string bytes = written.bytes.substr(0, written.flushed[1]);
+    const auto damaged = [&bytes](size_t begin, size_t end) {
+        std::string some = bytes;
+        some[(begin + end) / 2] = static_cast<char>(some[(begin + end) / 2] ^ 1);
+        const auto reader = Reader::open(some, "killed.mcap");
+        EXPECT_FALSE(reader.value().is_complete());
+        Cursor cursor(reader.value());
+        while (cursor.next()) {
+        }
+        EXPECT_TRUE(cursor.trouble());
+        return cursor.is_damaged();
+    };
+    EXPECT_FALSE(damaged(written.flushed[0], written.flushed[1]));
+    EXPECT_TRUE(damaged(0, written.flushed[0]));
+}
+
 TEST(Mcap, AFullDiskEndsTheWriting) {
     size_t left = 200;
     Writer writer([&](std::string_view bytes) -> Status {

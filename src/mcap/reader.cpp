@@ -61,9 +61,15 @@ Result<std::string> open_chunk(std::string_view content) {
     const std::string_view how = chunk.string();
     const std::string_view packed = chunk.bytes(chunk.u64());
     if (chunk.bad()) return Error{Code::BadInput, "it is shorter than it says"};
+    // What was cut off a file while it is read is zeros: lengths of nothing, and no checksum.
+    if (size == 0 && chunk.left() > 0) {
+        return Error{Code::BadInput, "it says that it is empty, and has " +
+                                         std::to_string(chunk.left()) + " bytes more"};
+    }
     std::string bytes = TRY(unpack(packed, how, size));
-    if (crc != 0 && crc != crc32(bytes)) return Error{Code::BadInput, "its checksum is wrong"};
-    return bytes;
+    if (crc == 0 || crc == crc32(bytes)) return bytes;
+    return Error{Code::BadInput, "its checksum is wrong: expected " + std::to_string(crc) +
+                                     ", found " + std::to_string(crc32(bytes))};
 }
 
 Message message_of(std::string_view content) {
@@ -184,6 +190,11 @@ bool Cursor::open_next_piece() {
     }
     rest_ = chunk_;
     return true;
+}
+
+bool Cursor::is_damaged() const {
+    const bool was_last = piece_ == reader_.pieces_.size();
+    return trouble_.has_value() && (reader_.is_complete() || !was_last);
 }
 
 std::optional<Message> Cursor::next() {

@@ -68,6 +68,9 @@ public:
     std::optional<Message> next();
     // Why it ended before the end of the file.
     const std::optional<Error>& trouble() const { return trouble_; }
+    // That trouble is damage: not the last chunk of a file without an end, which its writer was
+    // writing when it was killed.
+    bool is_damaged() const;
 
 private:
     bool open_next_piece();

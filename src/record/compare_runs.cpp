@@ -11,6 +11,7 @@
 #include "base/nearest.hpp"
 #include "base/seconds.hpp"
 #include "record/compare_tape.hpp"
+#include "record/damage.hpp"
 #include "record/recorder.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
@@ -62,6 +63,7 @@ public:
             made_.end = std::max(made_.end, at);
             see(channel->topic, at, message->data);
         }
+        TRY(check_read(cursor, reader_));
         made_.robots = TRY(read_run(json_line(made_.about), reader_.name())).robots;
         if (made_.start) return std::move(made_);
         const bool actor = align_.at == Align::At::Actor;
@@ -234,6 +236,9 @@ public:
         if (channel != nullptr) lanes.take(side_, channel->topic, at, message->data);
     }
 
+    // It was all read before, but somebody may have cut it off since.
+    Status check() const { return check_read(cursor_, reader_); }
+
 private:
     const mcap::Reader& reader_;
     mcap::Cursor cursor_;
@@ -242,7 +247,7 @@ private:
     Time reached_ = Time::min();
 };
 
-void run_through(Lanes& lanes, Stream a, Stream b, Time end) {
+Status run_through(Lanes& lanes, Stream a, Stream b, Time end) {
     for (uint64_t count = 1;; ++count) {
         const Time reached = std::min(a.reached(), b.reached());
         if (reached == Time::max() || (reached > end && reached - kOutOfOrder > end)) break;
@@ -252,7 +257,17 @@ void run_through(Lanes& lanes, Stream a, Stream b, Time end) {
             lanes.follow(std::min(std::min(a.reached(), b.reached()) - kOutOfOrder, end));
         }
     }
+    TRY(a.check());
+    TRY(b.check());
     lanes.end(end);
+    return Status::done();
+}
+
+// Up to when all that happened is in the file, from where it is aligned. Without an end it lacks
+// what waited to be written, of the last instant and before.
+Time told_until(const mcap::Reader& reader, const Survey& survey) {
+    const Time end = survey.end - *survey.start;
+    return reader.is_complete() ? end : end - kOutOfOrder;
 }
 
 ComparedLane compare_ends(const Survey& a, const Survey& b) {
@@ -339,8 +354,8 @@ Result<Comparison> compare_runs(const mcap::Reader& a, const mcap::Reader& b, co
     std::vector<std::string> robots = of_a.robots;
     robots.insert(robots.end(), of_b.robots.begin(), of_b.robots.end());
     Lanes lanes(from_start, made.start_a - made.start_b, robots);
-    const Time end = std::min(of_a.end - made.start_a, of_b.end - made.start_b);
-    run_through(lanes, {a, Side::A, made.start_a}, {b, Side::B, made.start_b}, end);
+    const Time end = std::min(told_until(a, of_a), told_until(b, of_b));
+    TRY(run_through(lanes, {a, Side::A, made.start_a}, {b, Side::B, made.start_b}, end));
     made.lanes = lanes.result();
     if (a.is_complete() && b.is_complete()) made.lanes.push_back(compare_ends(of_a, of_b));
     put_first_what_differs(made.lanes);

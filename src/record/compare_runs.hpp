@@ -7,7 +7,7 @@
 // of the bus, the variables of each node, the pose of each robot and loose object, what is in the
 // world, and how the run ended; the checks, too, where both are aligned at the start. Each robot
 // with a project of its own has lanes of its own. What lies beyond the end of the shorter one is
-// not compared.
+// not compared, nor is the last second of one without an end, which may not have been written.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,8 @@ struct Comparison {
     bool differs() const { return !lanes.empty() && lanes.front().difference.has_value(); }
 };
 
-// The Error says which of them has no such actor or event, and what it has.
+// The Error says which of them has no such actor or event, and what it has; or which is damaged,
+// and where (damage.hpp).
 Result<Comparison> compare_runs(const mcap::Reader& a, const mcap::Reader& b, const Align& align);
 
 // A sentence or three lines for each difference, and JSON. Names are those of the files.

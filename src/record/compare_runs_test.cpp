@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mcap/writer.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
@@ -186,7 +188,10 @@ std::string recording(const std::string& max_time, const std::vector<Said>& mess
     about.max_time = max_time;
     about.robots = robots;
     put(std::string(kRunTopic), 0s, format_run(about));
-    for (const Said& one : messages) put(one.topic, one.at, one.data);
+    for (const Said& one : messages) {
+        put(one.topic, one.at, one.data);
+        EXPECT_TRUE(writer.flush().ok());  // each in a chunk of its own
+    }
     EXPECT_TRUE(writer.end().ok());
     return bytes;
 }
@@ -253,6 +258,61 @@ TEST(CompareRuns, AlignedAtAnActorOrAnEvent) {
               "differs at 3.100000 s of A, 7.600000 s of B: /bus/events\n  A: {\"name\":\"y\"}\n"
               "  B: nothing\n"
               "no difference: /vagus/input, /plan/trace, /world/scene, end\n");
+}
+
+// ---- recordings that are not whole ----
+
+std::string name_at(std::string_view text, std::string_view from, std::string_view to) {
+    const size_t begin = text.find(from) + from.size();
+    return std::string(text.substr(begin, text.find(to, begin) - begin));
+}
+
+// What is missing has not failed to happen.
+TEST(CompareRuns, ARecordingThatIsDamagedInItsMiddleIsNoOtherRun) {
+    const std::string whole = recording("9", {emits(1s, "x"), emits(2s, "here"), ends(4s)});
+    std::string damaged = whole;
+    damaged[damaged.find("here")] = 'm';
+    const auto a = mcap::Reader::open(whole, "a.mcap");
+    const auto b = mcap::Reader::open(damaged, "b.mcap");
+    for (const auto& found :
+         {compare_runs(a.value(), b.value(), {}), compare_runs(b.value(), a.value(), {})}) {
+        ASSERT_FALSE(found.ok());
+        const std::string& what = found.error().what;
+        EXPECT_TRUE(what.starts_with("b.mcap: the chunk at byte ")) << what;
+        const size_t place = std::stoul(name_at(what, "at byte ", " "));
+        EXPECT_GT(place, damaged.find("mere") - 200) << what;
+        EXPECT_LT(place, damaged.find("mere")) << what;
+        EXPECT_NE(what.find("its checksum is wrong: expected "), std::string::npos) << what;
+        EXPECT_TRUE(what.ends_with("by `vagus replay b.mcap --repair WHOLE.mcap`")) << what;
+    }
+}
+
+// The rest of a mapped file that is cut off reads as zeros, from whatever instant on.
+TEST(CompareRuns, ARecordingThatIsCutOffWhileItIsReadIsNoOtherRun) {
+    const std::string whole = recording("9", {emits(1s, "x"), emits(2s, "y"), ends(4s)});
+    std::string cut = whole;
+    const auto a = mcap::Reader::open(whole, "a.mcap");
+    const auto b = mcap::Reader::open(cut, "b.mcap");
+    ASSERT_TRUE(b.value().is_complete());
+    std::fill(cut.begin() + static_cast<std::ptrdiff_t>(cut.find("\"y\"")), cut.end(), '\0');
+    const auto found = compare_runs(a.value(), b.value(), {});
+    ASSERT_FALSE(found.ok());
+    EXPECT_TRUE(found.error().what.starts_with("b.mcap: the chunk at byte ")) << found.error().what;
+}
+
+// Of its last instants some messages were not yet written when it was killed.
+TEST(CompareRuns, TheLastSecondOfARecordingWithoutAnEndIsNotCompared) {
+    const std::string whole =
+        recording("9", {emits(1s, "x"), starts(4s, "go", 1), emits(4s, "y"), ends(9s)});
+    const size_t last = whole.find("\"y\"");
+    const std::string killed = whole.substr(0, last);
+    const auto a = mcap::Reader::open(whole, "a.mcap");
+    const auto b = mcap::Reader::open(killed, "b.mcap");
+    ASSERT_FALSE(b.value().is_complete());
+    EXPECT_FALSE(compare_runs(a.value(), b.value(), {}).value().differs());
+    const std::string other = recording("9", {emits(2s, "x"), ends(9s)});
+    const auto c = mcap::Reader::open(other, "c.mcap");
+    EXPECT_TRUE(compare_runs(c.value(), b.value(), {}).value().differs());
 }
 
 // ---- robots with projects of their own ----

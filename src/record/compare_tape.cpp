@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "record/damage.hpp"
+
 namespace vagus::record {
 
 namespace {
@@ -105,7 +107,7 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
     std::optional<Recorded> recorded = take(topic);
     // One that is not there was dropped, or the recording was cut off: that is no difference.
     const bool dropped = topics_[topic - 1u].may_be_dropped;
-    if (!recorded && (dropped || !reader_.is_complete())) return;
+    if (!recorded && (dropped || !reader_.is_complete() || cursor_.trouble())) return;
     if (recorded && dropped && recorded->at > at) {
         ahead_[topics_[topic - 1u].name].push_front(std::move(*recorded));
         return;
@@ -126,7 +128,7 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
     differs(std::move(found));
 }
 
-void CompareTape::end() {
+Status CompareTape::end() {
     over_ = true;
     while (const auto message = cursor_.next()) {
         const mcap::Channel* const channel = reader_.channel(message->channel);
@@ -146,6 +148,7 @@ void CompareTape::end() {
         if (at > until_ || (input_behind && at == until_)) continue;
         differs({.at = at, .topic = topic, .place = {}, .then = data, .now = {}});
     }
+    return check_read(cursor_, reader_);
 }
 
 }  // namespace vagus::record

@@ -3,7 +3,7 @@
 //
 //     CompareTape tape(reader);
 //     Recorder recorder(tape, run);           // follows the run
-//     tape.end();
+//     TRY(tape.end());
 //     if (const auto& found = tape.difference()) show(found->place);
 #pragma once
 
@@ -46,8 +46,9 @@ public:
     void put(uint16_t topic, Time at, std::string data) override;
     void put_later(uint16_t topic, Time at, size_t, Word word) override { put(topic, at, word()); }
     // All that was recorded must have come again, but for an input behind the instant `until`, and
-    // what followed from it then. Nothing more is compared.
-    void end();
+    // what followed from it then. Nothing more is compared. The Error says that the recording was
+    // damaged meanwhile (damage.hpp): what differs then says nothing of the run.
+    Status end();
     // A difference that is found later may be of an earlier instant, until end().
     const std::optional<Difference>& difference() const { return difference_; }
     uint64_t compared() const { return compared_; }

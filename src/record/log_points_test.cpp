@@ -184,7 +184,7 @@ TEST(LogPoints, RandomOnesTellWhatTheRunItselfHeld) {
         ASSERT_TRUE(points.ok()) << points.error().what;
         CompareTape tape(reader.value());
         ASSERT_TRUE(rerun.value()->run(tape).ok());
-        tape.end();
+        EXPECT_TRUE(tape.end().ok());
         EXPECT_FALSE(tape.difference()) << tape.difference()->topic;
     }
     // Two points at one instruction may come in either order, and the reruns one after the other.

@@ -57,7 +57,7 @@ Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
     const Rerun::Ended ended = TRY(rerun->run(tape));
     TRY(places.ask());
     points->close();
-    tape.end();
+    TRY(tape.end());
     if (tape.difference()) return not_the_same(*tape.difference());
     return std::min(ended.at, until);
 }

@@ -8,6 +8,7 @@
 #include "base/json.hpp"
 #include "debug/user_event.hpp"
 #include "record/compare_tape.hpp"
+#include "record/damage.hpp"
 #include "record/topics.hpp"
 #include "wire/protocol.hpp"
 
@@ -61,6 +62,7 @@ Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl:
             past->see_node(message->data);
         }
     }
+    TRY(check_read(cursor, reader));
     return past;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/file.hpp"
 #include "base/seconds.hpp"
+#include "record/damage.hpp"
 #include "record/topics.hpp"
 
 namespace vagus::record {
@@ -30,6 +31,7 @@ Result<RecordedRun> read_recorded(const mcap::Reader& reader) {
         if (input == nullptr || message->channel != input->id) continue;
         recorded.inputs.push_back(TRY(read_input(message->data, at, reader.name())));
     }
+    TRY(check_read(cursor, reader));
     recorded.about = TRY(read_run(about, reader.name()));
     return recorded;
 }

@@ -289,7 +289,7 @@ std::optional<Difference> missing(const std::vector<Told>& recorded, Time until)
     const auto reader = mcap::Reader::open(bytes, "a.mcap");
     EXPECT_TRUE(reader.ok());
     CompareTape tape(reader.value(), {}, until);
-    tape.end();
+    EXPECT_TRUE(tape.end().ok());
     return tape.difference();
 }
 
@@ -306,6 +306,32 @@ TEST(CompareTape, WithoutAnInputAllOfTheLastInstantMustComeAgain) {
     ASSERT_TRUE(missing(recorded, 1s));
     EXPECT_EQ(missing(recorded, 1s)->topic, kTraceTopic);
     EXPECT_TRUE(missing({{500ms, kInputTopic, "{}"}, {1s, kInputTopic, "{}"}}, 1s));
+}
+
+// What the rest of it was nobody knows.
+TEST(CompareTape, WhatIsCutOffWhileItIsReadIsNoDifference) {
+    std::string bytes;
+    mcap::Writer writer([&bytes](std::string_view more) {
+        bytes += more;
+        return Status::done();
+    });
+    const uint16_t channel =
+        writer.add_channel({.topic = std::string(kTraceTopic), .encoding = "json"});
+    writer.write(channel, 1'000'000'000, "{}");
+    EXPECT_TRUE(writer.flush().ok());
+    const size_t second_chunk = bytes.size();
+    writer.write(channel, 2'000'000'000, "{}");
+    EXPECT_TRUE(writer.end().ok());
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    ASSERT_TRUE(reader.value().is_complete());
+    std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(second_chunk), bytes.end(), '\0');
+    CompareTape tape(reader.value());
+    const uint16_t trace = tape.declare({.name = std::string(kTraceTopic)});
+    for (const Time at : {1s, 2s}) tape.put(trace, at, "{}");
+    const Status read = tape.end();
+    EXPECT_FALSE(tape.difference());
+    ASSERT_FALSE(read.ok());
+    EXPECT_TRUE(read.error().what.starts_with("a.mcap: the chunk at byte ")) << read.error().what;
 }
 
 // ---- worlds that are run again ----
@@ -357,7 +383,7 @@ std::optional<Difference> run_again(const std::string& bytes) {
     EXPECT_TRUE(rerun.ok());
     CompareTape tape(reader.value());
     EXPECT_TRUE(rerun.value()->run(tape).ok());
-    tape.end();
+    EXPECT_TRUE(tape.end().ok());
     EXPECT_GT(tape.compared(), 100u);
     return tape.difference();
 }

@@ -4,7 +4,7 @@
 //     auto rerun = TRY(Rerun::open(reader, {}));
 //     CompareTape tape(reader);
 //     const Rerun::Ended ended = TRY(rerun->run(tape));
-//     tape.end();
+//     TRY(tape.end());
 //
 // In virtual time, by the same code that ran it: `plan run`, alone or beside a world, `sim`, and
 // runs of the studio. Of a run on a real bus only the plan decides again (bus_rerun.hpp).

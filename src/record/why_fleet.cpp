@@ -66,7 +66,7 @@ Status Walk::ask(const Question& question) {
 Status Walk::ask_one_bus(const Question& question) {
     if (question.robot.empty()) return ask(question);
     return Error{
-        Code::BadInput,
+        Code::Refused,
         fmt::format("--robot {}: this run has one bus and at most one plan, so it is asked "
                     "without --robot; of several robots a variable of a node is named as "
                     "{}/drive.token",
@@ -76,7 +76,7 @@ Status Walk::ask_one_bus(const Question& question) {
 Status Walk::ask_fleet(Question question) {
     if (question.about == About::Motor) {
         if (!question.robot.empty() && question.robot != question.name) {
-            return Error{Code::BadInput,
+            return Error{Code::Refused,
                          fmt::format("--robot {}: motor {} names its robot already; leave --robot "
                                      "out",
                                      question.robot, question.name)};
@@ -143,7 +143,7 @@ Error Walk::several_have(const Question& question, const std::vector<size_t>& bu
     for (const size_t bus : buses) {
         for (std::string& one : robots_on(bus)) robots.push_back(std::move(one));
     }
-    return {Code::BadInput,
+    return {Code::Refused,
             fmt::format("{}: {}; say which one, as --robot {}",
                         had_by_then(question, robots.size()), some_of(robots), robots.front())};
 }

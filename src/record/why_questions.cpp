@@ -150,7 +150,7 @@ Status Walk::variable_of_node(const session::NodeState& node, const std::string&
         known_.push_back(place.name);
         if (place.name != name) continue;
         if (element && *element >= place.size) {
-            return Error{Code::BadInput,
+            return Error{Code::NotFound,
                          fmt::format("{} of {} has {} elements, from 0 on; found {}", name,
                                      node.name, place.size, full)};
         }

@@ -9,6 +9,7 @@
 #include "base/json.hpp"
 #include "base/text.hpp"
 #include "plan/value.hpp"
+#include "record/damage.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
 
@@ -93,6 +94,7 @@ Result<Recorded> read_recorded(const mcap::Reader& reader) {
         const auto json = read_json(message->data);
         if (const auto* tree = std::get_if<JsonValue>(&json)) recorded.told.line(*tree);
     }
+    TRY(record::check_read(cursor, reader));
     recorded.run = TRY(record::read_run(run, reader.name()));
     recorded.seed = seed_of(reader, recorded.run);
     return recorded;

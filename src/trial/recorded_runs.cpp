@@ -7,6 +7,7 @@
 
 #include "base/json.hpp"
 #include "embed/loaded_plan.hpp"
+#include "record/damage.hpp"
 #include "record/emitters.hpp"
 #include "record/past_bus.hpp"
 #include "record/replay.hpp"
@@ -70,7 +71,7 @@ Status count_trace(const mcap::Reader& reader, PlanCounter& counter, CountedRun&
         if (!counter.fits(*event)) return not_of_plan(reader, message->data);
         counter.see(*event);
     }
-    return Status::done();
+    return record::check_read(cursor, reader);
 }
 
 // The lines that alone can have sent what was on the bus.

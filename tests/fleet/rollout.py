@@ -8,7 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
 import projects  # noqa: E402
 from harness import GIVE_UP_AFTER, vagus  # noqa: E402
-from page import Studio  # noqa: E402
+from page import Refused, Studio  # noqa: E402
 
 
 class Versions(Case):
@@ -128,6 +128,38 @@ class FromTheStudio(Versions):
         page.wait(lambda: rollout.value["state"] == "well", "the end")
         self.assertTrue(rollout.value["robots"]["r1"]["has"])
         self.is_told("r1", "thymio-II.edition", 2)
+
+    def test_a_robot_becomes_well_after_the_studio_was_killed(self):
+        """Its table tells it, although the roll-out is left."""
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        healthy = {"condition": "node('thymio-II', 'edition') > 2", "for": 1}
+        studio = self.studio(self.version(healthy=healthy))
+        page, fleet, rollout = self.page(studio)
+        page.wait(lambda: "r1" in fleet.value["robots"], "the robot")
+        page.do("fleet.deploy", robots=["r1"])
+        page.wait(lambda: "is not true" in rollout.value["robots"].get("r1", {}).get("why", ""), "what it lacks")
+        studio.kill()
+        studio.start()
+        page, fleet, rollout = self.page(studio)
+        page.wait(lambda: "is not true" in rollout.value["robots"]["r1"]["why"], "what it lacks")
+        self.assertEqual(rollout.value["state"], "left")
+        self.do("set", "r1", "thymio-II.edition", 3)
+        page.wait(lambda: rollout.value["robots"]["r1"]["is"] == "well", "that it is well")
+        self.assertEqual(rollout.value["robots"]["r1"]["why"], "")
+
+    def test_unsaved_changes_are_left_out_only_by_name(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        page, fleet, rollout = self.page(self.studio(self.version()))
+        page.wait(lambda: "r1" in fleet.value["robots"], "the robot")
+        page.edit("robot.aesl", (0, 0, "\n"))
+        with self.assertRaisesRegex(Refused, "robot.aesl has unsaved changes"):
+            page.do("fleet.deploy", robots=["r1"])
+        page.do("fleet.deploy", robots=["r1"], without=["robot.aesl"])
+        page.wait(lambda: rollout.value["state"] == "well", "the end")
 
     def test_who_may_only_look_is_told_why(self):
         self.broker("r1")

@@ -101,6 +101,22 @@ class Install(unittest.TestCase):
         self.assertEqual((code, err.count("error")), (0, 0))
         self.assertIn("--max-time SECONDS", out)
 
+    def test_a_trace_on_stdout_has_it_for_itself(self):
+        """What else a generated program says is on stderr then, as with `vagus plan run`."""
+        patterns = ROOT / "examples/patterns"
+        source = self.folder / "traced"
+        self.assertEqual(run(self.vagus, "plan", "generate", patterns / "Square.plan.json", "-o", source)[0], 0)
+        program = next(path for path in self.build(source).iterdir() if path.name == "Square")
+        options = ["--world", patterns / "carbot.world.json", "--listen", "tcp:127.0.0.1:0", "--max-time", "0.5"]
+        place = r"(?m)^listening tcp:127\.0\.0\.1:\d+$"
+        for trace in ("--trace", "--trace-all"):
+            _, out, err = run(program, *options, trace, "-")
+            self.assertRegex(err, place)
+            self.assertIn("plan-start", [json.loads(line).get("kind") for line in out.splitlines()])
+        _, out, err = run(program, *options)
+        self.assertRegex(out, place)
+        self.assertNotRegex(err, place)
+
     def test_generating_again_keeps_what_a_person_changed(self):
         plan = ROOT / "examples/embed/Greet.plan.json"
         out = self.folder / "again"

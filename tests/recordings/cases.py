@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from mcap import CHUNK, MAGIC, records
 from harness import GIVE_UP_AFTER, VAGUS, Program, run_vagus, vagus
 
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
@@ -588,6 +589,27 @@ class Recordings(unittest.TestCase):
         # Its last chunk may end anywhere.
         half = float(re.search(r"([\d.]+) s again", told).group(1)) / 2
         self.assertNotIn("has no end", self.replays("--until", half))
+
+    def test_a_recording_that_is_damaged_in_its_middle_is_told(self):
+        """By each verb that reads it, with the place and what helps; not as another run."""
+        self.follow_wall(max_time=60)
+        whole = self.folder / "whole.mcap"
+        shutil.copy(self.file, whole)
+        content = self.file.read_bytes()
+        chunks = [record for opcode, record in records(content[len(MAGIC):]) if opcode == CHUNK]
+        chunk = chunks[len(chunks) // 2]
+        middle = content.index(chunk) + len(chunk) // 2
+        self.file.write_bytes(content[:middle] + bytes(64) + content[middle + 64:])
+        repaired = self.folder / "repaired.mcap"
+        for words in (["compare", whole, self.file], ["compare", self.file, whole], ["replay", self.file],
+                      ["why", self.file, "end"], ["test", "new", self.file, self.folder / "run.test.json"]):
+            with self.subTest(words=words):
+                told = run_vagus(*words, status=2)
+                at = int(re.search(rf"{self.file}: the chunk at byte (\d+) cannot be read: ", told).group(1))
+                self.assertLess(at, middle)
+                self.assertIn(f"`vagus replay {self.file} --repair WHOLE.mcap`", told)
+        self.replays("--repair", repaired)
+        run_vagus("why", repaired, "motor", "carbot", "--at", 10)
 
     def test_what_is_no_recording(self):
         self.file.write_text("{}")

@@ -73,6 +73,18 @@ test('WhyAnOrderWasNotGivenIsInTheReport', async () => {
   expect(desk.report).toMatchObject({ is: 'failed', why: 'the broker does not pass it on' });
 });
 
+test('WhatIsDeployedLacksTheUnsavedChangesThatAPersonHasSeen', async () => {
+  const { world, desk, sent } = make();
+  const deployed = desk.deploy(['r1'], ' 1,100% ', ['robot.aesl']);
+  await settled();
+  const [order] = sent('fleet.deploy');
+  expect(order?.in).toEqual({ robots: ['r1'], steps: '1,100%', without: ['robot.aesl'] });
+  const error = { code: 'conflict', what: 'hall.aesl has unsaved changes' };
+  world.say({ id: order?.id, error });
+  expect(await deployed).toBe(false);
+  expect(desk.deployWhy).toBe('hall.aesl has unsaved changes');
+});
+
 test('EventsThatComeAgainWithANewConnectionAreListedOnce', async () => {
   const { world, desk, sent } = make();
   const end = desk.follow();

@@ -1,6 +1,6 @@
 // What a page does with a fleet: how it looks at the robots, and what it tells them.
 
-import type { Commands, FleetEvent, FleetOutcome } from '../protocol/messages';
+import type { Commands, FleetEvent, FleetOutcome, Path } from '../protocol/messages';
 import { deskFor } from './desk';
 import { Emitter } from './emitter';
 import { inBatches, noChoice, type Choice, type Sort } from './fleet';
@@ -107,11 +107,20 @@ export class FleetDesk {
     }
   }
 
-  /** The project that is open for these robots, or for all of the fleet. Whether it was taken. */
-  async deploy(robots: readonly string[], steps: string): Promise<boolean> {
+  /**
+   * The project that is open for these robots, or for all of the fleet, without the unsaved changes of
+   * these files. Whether it was taken: not while another file has unsaved changes.
+   */
+  async deploy(
+    robots: readonly string[],
+    steps: string,
+    without: readonly Path[],
+  ): Promise<boolean> {
     const chosen = robots.length === 0 ? {} : { robots: [...robots] };
+    const words = { ...chosen, steps: steps.trim(), without: [...without] };
     this.deployWhy = await whyNot(
-      this.studio.send('fleet.deploy', { ...chosen, steps: steps.trim() }),
+      // What was typed just now is a change that the server does not know yet.
+      this.studio.documents.flushAll().then(() => this.studio.send('fleet.deploy', words)),
     );
     this.dismissed = null;
     this.changed.emit();

@@ -1,4 +1,7 @@
 // Another version for robots of a fleet, from its page, over a real broker: real robots fetch it.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeAlarm, startMember, startOwnBroker } from './support/fleet.mjs';
 import { startServer } from './support/server.mjs';
@@ -15,7 +18,7 @@ const twoRobots = (version) => ({
     const broker = await startOwnBroker(t, ['r1', 'r2']);
     for (const name of ['r1', 'r2']) await startMember(t, broker.target, name, broker.login(name));
     const { place } = makeAlarm(t, version);
-    return { words: [place, '--fleet', broker.target, ...broker.login('operator')] };
+    return { place, words: [place, '--fleet', broker.target, ...broker.login('operator')] };
   },
 });
 
@@ -57,6 +60,36 @@ test(
     await reads(summary, 'Roll back Alarm: 2 of 2 robots well');
     await page.getByRole('button', { name: 'Dismiss' }).click();
     await panel.waitFor({ state: 'detached' });
+  },
+);
+
+test(
+  'unsaved changes are left out or saved, as a person decides',
+  twoRobots({ script: 'var edition = 2\n' }),
+  async (studio) => {
+    const { page, press, button, place, type } = studio;
+    const { open, row, summary } = handsOn(page);
+    const script = () => readFileSync(join(place, 'robot.aesl'), 'utf8');
+    await studio.tab(/^thymio-II/).click();
+    await studio.editor('thymio-II').click();
+    await press('Control+Home');
+    await type('# typed later\n');
+    await open();
+    await button('Deploy…').click();
+    await seen(page.getByText('Unsaved changes in robot.aesl.'));
+    await look(studio, 'a roll-out with unsaved changes');
+    await press('Enter'); // in the field of the steps: nothing is decided yet
+    await seen(page.getByText('Save all, or deploy without these changes.'));
+    await button('Deploy without these changes').click();
+    await reads(summary, 'Deploy Alarm: 2 of 2 robots well');
+    assert.doesNotMatch(script(), /typed later/);
+    await button('Deploy…').click();
+    await button('Save all').click();
+    await page.getByText('Unsaved changes in').waitFor({ state: 'detached' });
+    assert.match(script(), /typed later/);
+    await press('Enter');
+    await reads(row('r1'), 'well');
+    await reads(row('r2'), 'well');
   },
 );
 
@@ -103,6 +136,13 @@ test(
       handsOn(again.page).panel.getByText(/^the studio that gave it ended before it was over/),
     );
     await seen(again.page.getByRole('button', { name: 'Roll back' }));
+    await reads(handsOn(again.page).row('r1'), /^started: its condition .* is not true: .* = 2$/);
+    await again.page.getByRole('option', { name: /^r1 running/ }).click();
+    await again.page.getByRole('button', { name: 'Set a variable' }).click();
+    await again.page.getByLabel('Variable', { exact: true }).fill('thymio-II.edition');
+    await again.page.getByLabel('Value', { exact: true }).fill('3');
+    await again.page.keyboard.press('Enter');
+    await reads(handsOn(again.page).row('r1'), 'well');
     studio.complaints.length = 0; // the window of the server that was killed
   },
 );

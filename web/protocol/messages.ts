@@ -1582,6 +1582,8 @@ export interface Commands {
     robots?: string[];
     /** how many have it after each step, as 1,10%,100% */
     steps?: string;
+    /** files whose unsaved changes are not part of it; it is refused while another one has some */
+    without?: Path[];
   }; out: Record<never, never> };
   /** Robots that have the version of the last roll-out get the one before, all at once. */
   'fleet.rollback': { in: Record<never, never>; out: Record<never, never> };

@@ -48,10 +48,8 @@ std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options)
     }
     const std::string listening = made->prepared_->listening();
     if (listening.empty()) return made;
-    // stdout is for one reader at a time.
-    const bool traced = words.trace == "-" || words.trace_all == "-";
     const std::string line = "listening " + listening + "\n";
-    traced ? say(line) : void(print(line));
+    words.traces_on_stdout() ? say(line) : void(print(line));
     return made;
 }
 

@@ -311,7 +311,8 @@ int run_again(const ReplayOptions& options, const mcap::Reader& reader,
     if (!ended.ok()) return complain(ended.error(), options.from ? kExitUsage : kExitFailed);
     const Status there = looker.end();
     if (!there.ok()) return complain(there.error(), kExitUsage);
-    tape.end();
+    const Status read = tape.end();
+    if (!read.ok()) return complain(read.error(), kExitUsage);
     const Status written = file.value() ? file.value()->end() : Status::done();
     if (!written.ok()) return complain(written.error());
     const Time end = how.from ? *how.from : std::min(ended.value().at, what.until);

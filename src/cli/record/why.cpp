@@ -46,7 +46,10 @@ int tell_why(const WhyOptions& options) {
     std::optional<Time> at;
     if (options.at) at = from_seconds(*options.at);
     const auto chain = record::why(reader.value(), question.value(), at);
-    if (!chain.ok()) return complain(chain.error());
+    if (!chain.ok()) {
+        const bool invalid = chain.error().code == Code::BadInput;  // damaged, or of no run
+        return complain(chain.error(), invalid ? kExitUsage : kExitFailed);
+    }
     if (options.json) {
         print(record::format_chain_json(chain.value()));
         return kExitDone;

@@ -68,6 +68,7 @@ void FleetDesk::declare_rollout_commands() {
         RolloutDesk::Order order = rollout_order(call);
         order.robots = robots_in_order(call.in);
         order.steps = call.in.value("steps", fleet::kStepsUnlessTold);
+        order.without = call.in.value("without", std::vector<std::string>());
         rollouts_.begin(std::move(order), now_,
                         [call](const Status& begun) { call.answer(begun); });
     });
@@ -122,6 +123,7 @@ Status FleetDesk::open(const FleetOptions& options, Time now) {
     target_ = to_string(link.target);
     host_ = link.target.host;
     link_ = connect_(std::move(link));
+    rollouts_.enter(target_);
     return Status::done();
 }
 

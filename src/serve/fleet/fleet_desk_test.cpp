@@ -84,7 +84,7 @@ protected:
                         const auto packed = []() -> Result<PackedVersion> {
                             return PackedVersion{"the version", "ab"};
                         };
-                        return std::optional(OpenVersion{"Rover", packed});
+                        return std::optional(OpenVersion{"Rover", {}, packed});
                     }}};
 };
 

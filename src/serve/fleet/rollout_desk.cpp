@@ -46,6 +46,18 @@ Place place_of_word(const std::string& word) {
     return Place::Later;
 }
 
+// Nobody deploys less than they see on their screen without knowing it.
+Status check_unsaved(const OpenVersion& version, const std::vector<std::string>& without) {
+    for (const std::string& file : version.unsaved) {
+        if (std::ranges::find(without, file) != without.end()) continue;
+        return Error{Code::Refused,
+                     fmt::format("{} has unsaved changes, which robots would not get; save it, or "
+                                 "deploy without them",
+                                 file)};
+    }
+    return Status::done();
+}
+
 Json robots_of(const std::vector<fleet::Rollout::Line>& lines) {
     Json robots = Json::object();
     for (size_t at = 0; at < lines.size(); ++at) {
@@ -88,6 +100,8 @@ void RolloutDesk::begin(Order order, Time now, Done done) {
     if (!steps.ok()) return done(steps.error());
     const auto version = places_.version();
     if (!version) return done(Error{Code::NotFound, kNoProject});
+    const Status decided = check_unsaved(*version, order.without);
+    if (!decided.ok()) return done(decided.error());
     if (places_.shelf.listen.empty() && !order.broker_is_here) {
         return done(Error{Code::Refused, kNoAddress});
     }
@@ -176,6 +190,11 @@ void RolloutDesk::halt(const std::string& why) {
     changed();
 }
 
+// Of one that a studio before this one gave robots may have come further than was kept.
+void RolloutDesk::enter(const std::string& target) {
+    if (!rollout_ && target == target_) rollout_.emplace(number_, lines_);
+}
+
 void RolloutDesk::leave(const std::string& why) {
     halt(why);
     rollout_.reset();
@@ -201,7 +220,7 @@ void RolloutDesk::end(const char* state, const std::string& why) {
 
 void RolloutDesk::hear(const fleet::LinkEvent& event, Time now) {
     now_ = now;
-    if (!rollout_) return hear_of_kept(event);
+    if (!rollout_) return;
     rollout_->hear(event, now);
     const auto* acknowledged = std::get_if<fleet::Acknowledged>(&event);
     if (!acknowledged || acknowledged->number != kWantNumber || acknowledged->refused.empty()) {
@@ -211,25 +230,6 @@ void RolloutDesk::hear(const fleet::LinkEvent& event, Time now) {
         halt("the broker does not pass it on (" + acknowledged->refused +
              "); open the fleet with the login of an operator");
     }
-}
-
-// Of a roll-out that a studio before this one gave: robots may have come further than was kept.
-void RolloutDesk::hear_of_kept(const fleet::LinkEvent& event) {
-    const auto* received = std::get_if<fleet::Received>(&event);
-    const auto* version =
-        received ? std::get_if<fleet::Version>(&received->heard.message) : nullptr;
-    if (!version || version->number != number_ || version->result == "taken") return;
-    const auto line =
-        std::ranges::find(lines_, received->heard.topic.robot, &fleet::Rollout::Line::robot);
-    if (line == lines_.end()) return;
-    const bool started = version->result == "started";
-    const bool lacks = version->healthy == "not_yet";
-    const fleet::Rollout::Line before = *line;
-    line->has = version->result != "refused" && version->result != "rolled_back";
-    line->place = started ? Place::Started : Place::Failed;
-    if (started && !lacks && before.place == Place::Well) line->place = Place::Well;
-    line->why = started ? (lacks ? version->why : "") : version->result + ": " + version->why;
-    if (before != *line) changed();
 }
 
 void RolloutDesk::tick(Time now) {

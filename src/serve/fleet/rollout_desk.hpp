@@ -39,7 +39,8 @@ struct PackedVersion {
 // The project that is open.
 struct OpenVersion {
     std::string name;
-    std::function<Result<PackedVersion>()> pack;  // called on another thread
+    std::vector<std::string> unsaved = {};        // its files whose changes are not on disk
+    std::function<Result<PackedVersion>()> pack;  // called on another thread; what is on disk
 };
 
 struct RolloutPlaces {
@@ -58,6 +59,7 @@ public:
         bool broker_is_here = false;           // on this computer: so are robots
         std::vector<std::string> robots = {};  // in this order
         std::string steps = fleet::kStepsUnlessTold;
+        std::vector<std::string> without = {};  // files whose unsaved changes are not part of it
         std::string by = {};
     };
     using Done = std::function<void(const Status& begun)>;
@@ -72,7 +74,9 @@ public:
     Status roll_back(const Order& order, Time now);
     // No other robot gets it, and it is served no longer.
     Status stop(const std::string& by);
-    // The fleet is closed: what is said there is heard no longer, either.
+    // A fleet is opened: of the last roll-out there it is heard what becomes of its robots.
+    void enter(const std::string& target);
+    // It is closed: what is said there is heard no longer, either.
     void leave(const std::string& why);
 
     void hear(const fleet::LinkEvent& event, Time now);
@@ -86,7 +90,6 @@ private:
                 const vagus::Result<PackedVersion>& version, const Done& done);
     void start(fleet::Rollout::Options options, std::unique_ptr<Shelf> shelf);
     void halt(const std::string& why);
-    void hear_of_kept(const fleet::LinkEvent& event);
     void end(const char* state, const std::string& why);
     void changed();
     void keep();

@@ -24,7 +24,8 @@ protected:
         };
         return {.version =
                     [this, packed] {
-                        return is_open ? std::optional(OpenVersion{"Rover", packed}) : std::nullopt;
+                        return is_open ? std::optional(OpenVersion{"Rover", unsaved, packed})
+                                       : std::nullopt;
                     },
                 .file = (std::filesystem::path(folder) / "rollout.json").string()};
     }
@@ -44,6 +45,11 @@ protected:
         });
         return why;
     }
+    // The studio was killed.
+    void start_again() {
+        rollouts.emplace(desk, places());
+        rollouts->enter(order().target);
+    }
     std::vector<std::string> wanted() {
         std::vector<std::string> robots;
         for (const fleet::Post& post : rollouts->take()) {
@@ -55,9 +61,10 @@ protected:
         return robots;
     }
     void pass(Duration time) { rollouts->tick(now += time); }
-    void tells(const std::string& robot, const std::string& result, const std::string& why = "") {
+    void tells(const std::string& robot, const std::string& result, const std::string& why = "",
+               const std::string& healthy = "") {
         rollouts->hear(fleet::Received{{{.kind = Kind::Version, .robot = robot},
-                                        fleet::Version{want.number, "ab", result, why}},
+                                        fleet::Version{want.number, "ab", result, why, healthy}},
                                        false},
                        now);
         pass(0s);
@@ -81,6 +88,7 @@ protected:
 
     const vagus::test::Folder folder;
     bool is_open = true;
+    std::vector<std::string> unsaved;
     uint32_t watches = 0;
     fleet::Want want;
     std::optional<RolloutDesk> rollouts{std::in_place, desk, places()};
@@ -154,7 +162,7 @@ TEST_F(RolloutDeskTest, AStudioThatIsStartedAgainSaysThatItWasLeft) {
     (void)wanted();
     tells("r1", "started");
     (void)document();
-    rollouts.emplace(desk, places());
+    start_again();
     const Json left = document();
     EXPECT_EQ(left["state"], "left");
     EXPECT_EQ(left["why"],
@@ -170,6 +178,45 @@ TEST_F(RolloutDeskTest, AStudioThatIsStartedAgainSaysThatItWasLeft) {
     EXPECT_FALSE(rollouts->roll_back(other, now).ok()) << "robots of another fleet";
     EXPECT_TRUE(rollouts->roll_back(order(), now).ok());
     EXPECT_EQ(wanted(), Names{"r1"});
+}
+
+// Also one that was told of less when the file was written last; and nobody is given it again.
+TEST_F(RolloutDeskTest, ARobotBecomesWellAfterTheStudioWasStartedAgain) {
+    EXPECT_EQ(begin(order()), "");
+    (void)wanted();
+    tells("r1", "started", "battery = 12", "not_yet");
+    (void)document();
+    start_again();
+    rollouts->hear(fleet::Connected{}, now);
+    EXPECT_EQ(document()["robots"]["r1"]["why"], "battery = 12");
+    tells("r1", "started", "battery = 15", "not_yet");
+    pass(120s);  // nobody knows when it started: it does not fail by its time
+    EXPECT_EQ(document()["robots"]["r1"]["is"], "started");
+    EXPECT_EQ(document()["robots"]["r1"]["why"], "battery = 15");
+    tells("r1", "started", "battery = 21", "well");
+    pass(fleet::kHealthyFor);
+    EXPECT_EQ(document()["robots"]["r1"]["is"], "well");
+    EXPECT_EQ(document()["robots"]["r1"]["why"], "");
+    tells("r2", "started");  // a project without a condition
+    EXPECT_EQ(document()["robots"]["r2"]["is"], "started");
+    pass(fleet::kHealthyFor);
+    EXPECT_EQ(document()["robots"]["r2"]["is"], "well");
+    EXPECT_EQ(document()["state"], "left");
+    EXPECT_EQ(wanted(), Names{});
+}
+
+TEST_F(RolloutDeskTest, AFleetThatIsOpenedAgainIsHeardAndAnotherIsNot) {
+    EXPECT_EQ(begin(order()), "");
+    (void)wanted();
+    rollouts->leave("the fleet was closed");
+    rollouts->enter("mqtt://other:1883/lab");
+    tells("r1", "started");
+    pass(fleet::kHealthyFor);
+    EXPECT_EQ(document()["robots"]["r1"]["is"], "wanted");
+    rollouts->enter(order().target);
+    tells("r1", "started");
+    pass(fleet::kHealthyFor);
+    EXPECT_EQ(document()["robots"]["r1"]["is"], "well");
 }
 
 TEST_F(RolloutDeskTest, WhatIsKeptAndCannotBeReadCountsAsNone) {
@@ -196,6 +243,20 @@ TEST_F(RolloutDeskTest, WhatCannotBeBegunSaysWhatIsMissing) {
               "no project is open, whose version robots could get; open one beside the fleet");
     EXPECT_FALSE(document().contains("project"));
     EXPECT_EQ(wanted(), Names{});
+}
+
+// Of those that were changed since a person has looked nobody has decided.
+TEST_F(RolloutDeskTest, UnsavedChangesAreLeftOutOnlyIfTheyAreNamed) {
+    unsaved = {"a.aesl", "b.aesl"};
+    auto some = order();
+    some.without = {"a.aesl"};
+    EXPECT_EQ(begin(some),
+              "b.aesl has unsaved changes, which robots would not get; save it, or deploy without "
+              "them");
+    EXPECT_EQ(wanted(), Names{});
+    some.without = {"b.aesl", "a.aesl", "c.aesl"};
+    EXPECT_EQ(begin(some), "");
+    EXPECT_EQ(wanted(), Names{"r1"});
 }
 
 TEST_F(RolloutDeskTest, ALoginThatMayNotWantAnythingIsTheReason) {

@@ -109,6 +109,8 @@ public:
     // conflict. Files that were deleted here stay deleted, as do others that are gone from the disk
     // and have nothing unsaved.
     Status save_all(std::vector<std::string>& saved);
+    // What that would save.
+    std::vector<std::string> unsaved() const;
     // Calls `then` from tick() when all that was written up to now is on the disk, or says what is
     // not; at once if that is so already. Nobody waits meanwhile.
     void when_on_disk(std::function<void(const Status&)> then);

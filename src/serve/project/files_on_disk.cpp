@@ -95,15 +95,19 @@ void Files::when_on_disk(std::function<void(const Status&)> then) {
     disk_waits_.push_back({sync_.last(), std::move(then)});
 }
 
-Status Files::save_all(std::vector<std::string>& saved) {
-    TRY(check_open());
+std::vector<std::string> Files::unsaved() const {
     std::vector<std::string> paths;
-    for (auto& [path, file] : files_) {
+    for (const auto& [path, file] : files_) {
         if (file.conflict || (file.unsaved && !file.deleted)) paths.push_back(path);
     }
+    return paths;
+}
+
+Status Files::save_all(std::vector<std::string>& saved) {
+    TRY(check_open());
     std::string refused;
     bool conflict = false;
-    for (const std::string& path : paths) {
+    for (const std::string& path : unsaved()) {
         const Status done = save(path);
         if (done.ok()) saved.push_back(path);
         if (done.ok()) continue;

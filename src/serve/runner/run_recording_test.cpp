@@ -66,7 +66,7 @@ protected:
         if (!rerun.ok()) return ADD_FAILURE() << rerun.error().what, 0;
         record::CompareTape tape(reader.value());
         EXPECT_TRUE(rerun.value()->run(tape).ok());
-        tape.end();
+        EXPECT_TRUE(tape.end().ok());
         if (const auto& found = tape.difference()) {
             ADD_FAILURE() << seconds_of(found->at) << " s " << found->topic << " " << found->place
                           << "\n then " << found->then << "\n now  " << found->now;

@@ -41,7 +41,8 @@ Status open_first(const StudioOptions& options, ServerLoop& server) {
 }
 
 // What is saved of the project that is open: what robots of the fleet can get.
-std::optional<OpenVersion> version_of(const std::optional<OpenedProject>& project) {
+std::optional<OpenVersion> version_of(const Workbench& bench) {
+    const std::optional<OpenedProject>& project = bench.project();
     if (!project || project->project_file.empty()) return std::nullopt;
     const auto packed = [folder = project->folder]() -> vagus::Result<PackedVersion> {
         const CollectedBundle collected = TRY(collect_bundle(folder));
@@ -49,7 +50,7 @@ std::optional<OpenVersion> version_of(const std::optional<OpenedProject>& projec
         std::string sha256 = sha256_of(bytes);
         return PackedVersion{std::move(bytes), std::move(sha256)};
     };
-    return OpenVersion{project->name, packed};
+    return OpenVersion{project->name, bench.unsaved(), packed};
 }
 
 fs::path first_page(const fs::path& data) {
@@ -91,7 +92,7 @@ Status run_studio(const StudioOptions& options, const StudioTalk& talk) {
                                                                [&links] { links.wake(); });
                     },
                     {.shelf = options.shelf,
-                     .version = [&server] { return version_of(server.bench().project()); },
+                     .version = [&server] { return version_of(server.bench()); },
                      .work = packer.poster(),
                      .file = (data / "rollout.json").string()});
     if (!options.fleet.target.empty()) TRY(fleet.open(options.fleet, links.now()));

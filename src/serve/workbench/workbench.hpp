@@ -103,6 +103,8 @@ public:
     Time next_tick(Time now) const;
     // ---- for a robot that works by itself ----
     const std::optional<OpenedProject>& project() const { return project_; }
+    // Its files with changes that are not on disk.
+    std::vector<std::string> unsaved() const { return files_.unsaved(); }
     // Nodes that the project's scripts are for and that have not told what they are, by their
     // names; on a bus only.
     std::vector<std::string> missing_nodes() const;

@@ -105,6 +105,10 @@ export const words = {
     steps: 'Steps',
     help: 'How many robots have it after each step. The first one that is not well ends it.',
     deploy: 'Deploy',
+    unsaved: (files: readonly string[]) => `Unsaved changes in ${listed(files)}.`,
+    saveAll: 'Save all',
+    without: 'Deploy without these changes',
+    decide: 'Save all, or deploy without these changes.',
   },
   rollout: {
     title: 'Roll-out',

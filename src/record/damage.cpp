@@ -1,0 +1,15 @@
+#include "record/damage.hpp"
+
+#include <fmt/format.h>
+
+namespace vagus::record {
+
+Status check_read(const mcap::Cursor& cursor, const mcap::Reader& reader) {
+    if (!cursor.is_damaged()) return Status::done();
+    return Error{Code::BadInput,
+                 fmt::format("{}; write that to a file of its own, by `vagus replay {} --repair "
+                             "WHOLE.mcap`",
+                             cursor.trouble()->what, reader.name())};
+}
+
+}  // namespace vagus::record

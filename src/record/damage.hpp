@@ -2,7 +2,7 @@
 // take what is missing then for something that did not happen.
 //
 //     mcap::Cursor cursor(reader);
-//     while (const auto message = cursor.next()) …
+//     while (const auto message = cursor.next()) show(*message);
 //     TRY(check_read(cursor, reader));
 #pragma once
 

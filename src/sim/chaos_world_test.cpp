@@ -381,9 +381,7 @@ TEST(ChaosWorlds, AResetWorldHasItsFaultsAgain) {
 }
 
 TEST(ChaosWorlds, DrawTheirFaultsFromWhatTheyHave) {
-    WorldOptions options;
-    options.chaos.draw = ChaosDraw{.count = 10};
-    Result<World> world = World::create(in_chaos(), options);
+    Result<World> world = World::create(in_chaos(), {.chaos = {.draw = ChaosDraw{.count = 10}}});
     ASSERT_TRUE(world.ok()) << world.error().what;
     EXPECT_EQ(world.value().chaos().size(), 10u);
     const auto targets = world.value().chaos_targets();

@@ -144,12 +144,13 @@ class Runs(Case):
         self.wait_clock("none")
         # A hand from above makes a frame; the wheels stood before time did.
         self.wait_values(motor_left_target=0, motor_right_target=0)
+        stopped, _ = moves.frames[-1]
         page.do("run.step", ms=500)
-        there = len(moves.frames)
-        self.wait(lambda: len(moves.frames) > there + 1, "poses after half a second")
+        self.wait(lambda: moves.frames[-1][0] > stopped + 0.4, "poses after half a second")
+        then = moves.frames[-1]
         page.do("run.step", ms=500)
-        self.wait(lambda: moves.frames[-1][0] > moves.frames[there][0] + 0.4, "poses after another")
-        self.assertEqual(poses(moves.frames[-1]), poses(moves.frames[there + 1]))
+        self.wait(lambda: moves.frames[-1][0] > stopped + 0.9, "poses after another")
+        self.assertEqual(poses(moves.frames[-1]), poses(then))
         page.do("run.start")
         self.wait_clock("running")
         self.wait_node(state="running")
@@ -266,6 +267,7 @@ class Runs(Case):
         self.assertEqual(share_of_red("empty"), 0)
         page.do("unwatch", watch=[number for number, topic in page.topics.items() if topic is seen["red"]][0])
         there = len(seen["empty"].frames)
+        page.do("run.start")
         self.wait(lambda: len(seen["empty"].frames) > there + 2, "more of the camera that is still watched")
         self.assertFalse(nobody.frames)
 

@@ -75,8 +75,9 @@ class Deploy(Robots):
         self.assertIn("# version 1\n", whole_version(self.folder))
         self.assertNotIn("# version", (self.folder / "robot.aesl").read_text(encoding="utf-8"))  # version 0 stays as it was given
         self.assertRegex(self.deploy(self.make(2), "--list"), r"^      0 +the folder as it was given\n\*     1  \d{4}-\d\d-\d\d \d\d:\d\d  Thymio$")
-        values = self.wait_metrics(deployed_version=1)
-        self.assertEqual(values[("vagus_deployments_total", "started")], 1)
+        self.wait_metrics(deployed_version=1)
+        started = ("vagus_deployments_total", "started")
+        self.until(lambda: self.studio.metrics().get(started) == 1, "a deployment that is counted")
 
     def make_planned(self, number, plan):
         projects.write(pathlib.Path(self.own) / "desk", "do.plan.json", plan)

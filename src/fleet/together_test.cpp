@@ -8,7 +8,7 @@ namespace vagus::fleet {
 namespace {
 
 using Client = TestBroker::Client;
-using MemberState = Member::Standing;
+using Standing = Member::Standing;
 
 MemberOptions robot(const std::string& name, const std::string& instance, int64_t epoch = 1) {
     return {.fleet = "lab",
@@ -52,15 +52,15 @@ TEST(Together, OfTwoOfOneNameTheSecondStaysOutUntilTheFirstGoes) {
     Client& second = broker.add(robot("r1", "b", 2));
     broker.connect(second);
     broker.run();
-    EXPECT_EQ(first.member.standing(), MemberState::Holding);
-    EXPECT_EQ(second.member.standing(), MemberState::Out);
+    EXPECT_EQ(first.member.standing(), Standing::Holding);
+    EXPECT_EQ(second.member.standing(), Standing::Out);
     broker.cut(first);
     broker.run();
-    EXPECT_EQ(second.member.standing(), MemberState::Holding);
+    EXPECT_EQ(second.member.standing(), Standing::Holding);
     broker.connect(first);
     broker.run();
-    EXPECT_EQ(first.member.standing(), MemberState::Out);
-    EXPECT_EQ(second.member.standing(), MemberState::Holding);
+    EXPECT_EQ(first.member.standing(), Standing::Out);
+    EXPECT_EQ(second.member.standing(), Standing::Holding);
 }
 
 TEST(Together, OfTwoThatComeAtOnceOneHasTheName) {
@@ -70,8 +70,8 @@ TEST(Together, OfTwoThatComeAtOnceOneHasTheName) {
     broker.connect(first);
     broker.connect(second);
     broker.run();
-    const int holding = (first.member.standing() == MemberState::Holding ? 1 : 0) +
-                        (second.member.standing() == MemberState::Holding ? 1 : 0);
+    const int holding = (first.member.standing() == Standing::Holding ? 1 : 0) +
+                        (second.member.standing() == Standing::Holding ? 1 : 0);
     EXPECT_EQ(holding, 1);
 }
 
@@ -91,7 +91,7 @@ TEST(Together, WhatHappenedWhileTheLinkWasCutComesOnce) {
     broker.connect(one);
     broker.run();
     EXPECT_EQ(heard_by(two), (Texts{"r11", "r12"}));
-    EXPECT_EQ(one.member.standing(), MemberState::Holding);
+    EXPECT_EQ(one.member.standing(), Standing::Holding);
 }
 
 }  // namespace

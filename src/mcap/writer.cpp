@@ -10,8 +10,13 @@ namespace {
 
 constexpr int kLevel = 1;  // of zstd: the fastest
 
+// Of `size` bytes, which are to follow.
+Put begin_record(std::string& to, Opcode opcode, size_t size) {
+    return Put(to).u8(static_cast<uint8_t>(opcode)).u64(size);
+}
+
 void append_record(std::string& to, Opcode opcode, std::string_view content) {
-    Put(to).u8(static_cast<uint8_t>(opcode)).u64(content.size()).bytes(content);
+    begin_record(to, opcode, content.size()).bytes(content);
 }
 
 }  // namespace
@@ -112,14 +117,18 @@ void Writer::write_chunk() {
     place.uncompressed = chunk_.size();
     constexpr size_t kChunkHead = 8 + 8 + 8 + 4 + (4 + 4) + 8;
     record_.clear();
-    Put put(record_);
-    put.u8(static_cast<uint8_t>(Opcode::Chunk)).u64(kChunkHead + packed.size());
-    put.u64(place.from).u64(place.to).u64(place.uncompressed).u32(crc32(chunk_));
-    put.string("zstd").u64(packed.size()).bytes(packed);
+    begin_record(record_, Opcode::Chunk, kChunkHead + packed.size())
+        .u64(place.from)
+        .u64(place.to)
+        .u64(place.uncompressed)
+        .u32(crc32(chunk_))
+        .string("zstd")
+        .u64(packed.size())
+        .bytes(packed);
     place.length = record_.size();
     add_indexes(place);
-    this->put(
-        record_);  // at once: a system call for each of a hundred indexes costs more than they do
+    // At once: a system call for each of a hundred indexes costs more than they do.
+    put(record_);
     chunks_.push_back(std::move(place));
     chunk_.clear();
     chunk_index_.clear();
@@ -130,13 +139,12 @@ void Writer::write_chunk() {
 void Writer::add_indexes(ChunkPlace& place) {
     constexpr size_t kIndexHead = 2 + 4;
     constexpr size_t kEntry = 8 + 8;
-    Put put(record_);
     for (const auto& [channel, entries] : chunk_index_) {
         place.indexes[channel] = place.offset + record_.size();
         const size_t bytes = kEntry * entries.size();
-        put.u8(static_cast<uint8_t>(Opcode::MessageIndex)).u64(kIndexHead + bytes);
-        put.u16(channel).u32(static_cast<uint32_t>(bytes));
-        for (const auto& [time, offset] : entries) put.u64(time).u64(offset);
+        Put index = begin_record(record_, Opcode::MessageIndex, kIndexHead + bytes);
+        index.u16(channel).u32(static_cast<uint32_t>(bytes));
+        for (const auto& [time, offset] : entries) index.u64(time).u64(offset);
     }
     place.indexes_length = record_.size() - place.length;
 }

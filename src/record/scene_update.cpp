@@ -23,8 +23,6 @@ struct Number {
     int decimals = 0;
 };
 
-// Ten robots take a thousand numbers a second. All but a few are rounded as whole numbers, which
-// takes a tenth of the time that their exact digits take.
 void append_exact(std::string& to, double value, int decimals) {
     constexpr size_t kLongest = 400;  // the largest double, all digits
     std::array<char, kLongest> text;
@@ -46,11 +44,12 @@ void append_digits(std::string& to, uint64_t number, int decimals) {
     to.append(begin, text.data() + text.size());
 }
 
-// As "%.6f" has it, to the byte.
+// As "%.6f" has it, to the byte. Ten robots take a thousand numbers a second: all but a few are
+// rounded as whole numbers, which takes a tenth of the time that their exact digits take.
 void append(std::string& to, const Number& number) {
     constexpr std::array<double, 7> kPowers = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6};
-    constexpr double kLargest =
-        1e9;  // so that the product is off by less than a hundredth of kDoubt
+    // So that the product is off by less than a hundredth of kDoubt.
+    constexpr double kLargest = 1e9;
     constexpr double kDoubt = 1e-4;
     const double scaled = std::abs(number.value) * kPowers[static_cast<size_t>(number.decimals)];
     const double whole = std::floor(scaled);

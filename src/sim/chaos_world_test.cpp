@@ -42,9 +42,7 @@ WorldDefinition in_chaos() {
 World made_with(const WorldDefinition& definition, std::vector<ChaosFault> faults,
                 WorldOptions options = {}) {
     options.chaos.faults = std::move(faults);
-    Result<World> world = World::create(definition, options);
-    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
-    return std::move(world.value());
+    return make_world(definition, std::move(options));
 }
 
 // A Thymio that counts, and a host that sends it an event each 10 ms, the first at 10 ms.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/node_bus.hpp"
+#include "sim/test_host.hpp"
 #include "sim/world.hpp"
 #include "wire/messages.hpp"
 
@@ -24,12 +25,6 @@ WorldDefinition with_thymios(std::vector<uint16_t> nodes) {
         world.robots.push_back({.name = "t" + std::to_string(node), .at = {x, 1}, .node = node});
     }
     return world;
-}
-
-World made_on_bus(const WorldDefinition& definition, const WorldOptions& options) {
-    Result<World> world = World::create(definition, options);
-    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
-    return std::move(world.value());
 }
 
 wire::Frame event_of_zeros(uint16_t source) {
@@ -67,7 +62,7 @@ private:
 // The question leaves at 0, takes below 150 microseconds and arrives at 1 ms; the answers leave
 // then and arrive at 2 ms, the lower identifier first.
 TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
-    World world = made_on_bus(with_thymios({7, 3}), can());
+    World world = make_world(with_thymios({7, 3}), can());
     BusHost host(world);
     host.list_nodes();
     world.step(1ms);
@@ -82,7 +77,7 @@ TEST(NodeBus, AFrameArrivesAtTheMillisecondAfterItsTransmission) {
 // 20 events a millisecond, more than the bus carries, under the lowest id: it wins the bus from
 // every node.
 TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
-    World world = made_on_bus(with_thymios({3, 7}), can());
+    World world = make_world(with_thymios({3, 7}), can());
     BusHost host(world);
     BusHost flood(world);
     const auto flood_for = [&](int milliseconds) {
@@ -110,7 +105,7 @@ TEST(NodeBus, AFloodUnderAnotherNodesIdKeepsNeitherStopNorItsAnswerAway) {
 }
 
 TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
-    World world = made_on_bus(with_thymios({7, 3}), {});
+    World world = make_world(with_thymios({7, 3}), {});
     BusHost host(world);
     host.list_nodes();
     world.step(1ms);
@@ -119,7 +114,7 @@ TEST(NodeBus, AnIdealBusAnswersAtOnceAndCountsNothing) {
 }
 
 TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
-    World world = made_on_bus(with_thymios({1}), can());
+    World world = make_world(with_thymios({1}), can());
     BusHost one(world);
     BusHost two(world);
     one.send(event_of_zeros(0));
@@ -137,14 +132,14 @@ TEST(NodeBus, HostsHearEachOtherAndWhatTheyHearIsCountedOnce) {
 }
 
 TEST(NodeBus, NodesOfSeveralRobotsAreToldApartByTheirRobot) {
-    World world = made_on_bus(with_thymios({1, 2}), can());
+    World world = make_world(with_thymios({1, 2}), can());
     EXPECT_EQ(world.bus_load()->nodes[2].load.name, "t2/thymio-II");
 }
 
 // 2000 frames at once are more than a port holds: they wait in the hub and pass as fast as the bus
 // goes, one after the other.
 TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
-    World world = made_on_bus(with_thymios({1}), can());
+    World world = make_world(with_thymios({1}), can());
     BusHost host(world);
     for (int i = 0; i < 2000; ++i) host.send(event_of_zeros(0));
     world.step(10ms);
@@ -157,7 +152,7 @@ TEST(NodeBus, AFloodFromAHostWaitsForTheBusAndLosesNothing) {
 }
 
 TEST(NodeBus, AFrameThatFitsNoIdentifierIsCountedAsDropped) {
-    World world = made_on_bus(with_thymios({1}), can());
+    World world = make_world(with_thymios({1}), can());
     BusHost host(world);
     host.send(event_of_zeros(256));
     world.step(1ms);
@@ -176,7 +171,7 @@ TEST(NodeBus, ANodeIdBeyondEightBitsIsRefused) {
 
 // While the world is held, scripts are loaded: no time passes, and nothing is counted.
 TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
-    World world = made_on_bus(with_thymios({1, 2}), can());
+    World world = make_world(with_thymios({1, 2}), can());
     BusHost host(world);
     host.list_nodes();
     world.hold_instant();
@@ -186,7 +181,7 @@ TEST(NodeBus, WhileTheWorldStandsStillFramesPassAtOnceAndUncounted) {
 }
 
 TEST(NodeBus, AResetForgetsWhatWasUnderWay) {
-    World world = made_on_bus(with_thymios({1}), can());
+    World world = make_world(with_thymios({1}), can());
     BusHost host(world);
     world.step(5ms);
     host.list_nodes();

@@ -22,9 +22,7 @@ World made_with_chaos(std::vector<ChaosFault> faults = {}) {
     definition.robots.push_back({.name = "thymio", .at = {1, 1}});
     WorldOptions options;
     options.chaos.faults = std::move(faults);
-    Result<World> world = World::create(definition, options);
-    EXPECT_TRUE(world.ok());
-    return std::move(world.value());
+    return make_world(definition, std::move(options));
 }
 
 std::string state_at(World& world, Time at) {

@@ -1,15 +1,23 @@
-// For tests: a host on the bus of a world, and programs for its nodes.
+// For tests: worlds, a host on the bus of one, and programs for its nodes.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "hub/hub.hpp"
+#include "sim/world.hpp"
 #include "wire/messages.hpp"
 
 namespace vagus::sim {
+
+inline World make_world(const WorldDefinition& definition, WorldOptions options = {}) {
+    Result<World> world = World::create(definition, std::move(options));
+    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
+    return std::move(world.value());
+}
 
 // A host on the bus of a world.
 class Host {

@@ -47,12 +47,6 @@ WorldDefinition with_thymio() {
     return world;
 }
 
-World make(const WorldDefinition& definition, WorldOptions options = {}) {
-    Result<World> world = World::create(definition, std::move(options));
-    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
-    return std::move(world.value());
-}
-
 int16_t variable(const World& world, uint16_t address, uint32_t robot = 1) {
     return world.variables({robot})[address];
 }
@@ -60,7 +54,7 @@ int16_t variable(const World& world, uint16_t address, uint32_t robot = 1) {
 TEST(World, AThymioHasItsInitialValues) {
     WorldDefinition definition = with_thymio();
     definition.robots[0].node = 77;
-    const World world = make(definition);
+    const World world = make_world(definition);
     const auto variables = world.variables({1});
     ASSERT_EQ(variables.size(), 586u);
     EXPECT_EQ(variables[0], 77);   // _id
@@ -69,12 +63,13 @@ TEST(World, AThymioHasItsInitialValues) {
     EXPECT_EQ(variables[36], 0);
     EXPECT_EQ(variables[66], 220);  // temperature
     EXPECT_EQ(variables[73], 0);    // sd.present: no folder was given
-    const World with_card = make(definition, {.seed = {}, .folder = ".", .sd_folder = "/tmp"});
+    const World with_card =
+        make_world(definition, {.seed = {}, .folder = ".", .sd_folder = "/tmp"});
     EXPECT_EQ(with_card.variables({1})[73], 1);
 }
 
 TEST(World, EventsComeAtTheirTrueRates) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     // motor, buttons, prox, acc, temperature, prox.comm, mic, sound.finished, rc5, tap
     host.load(1, counting({14, 5, 6, 9, 12, 7, 10, 11, 13, 8}));
@@ -89,7 +84,7 @@ TEST(World, EventsComeAtTheirTrueRates) {
 }
 
 TEST(World, TimersFireEveryPeriodAndAChangeRestartsThem) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     host.load(1, counting({15, 16}));
     host.set(1, kTimerPeriod, {7, 1000});
@@ -107,7 +102,7 @@ TEST(World, TimersFireEveryPeriodAndAChangeRestartsThem) {
 }
 
 TEST(World, AButtonTellsPressAndRelease) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     host.load(1, counting({2, 3}));
     world.step(1ms);
@@ -134,7 +129,7 @@ TEST(World, ATapAndACollisionAreTheSameEvent) {
     WorldDefinition definition = with_thymio();
     definition.objects.push_back(
         {.id = "post", .kind = ObjectKind::Cylinder, .at = {1.12, 1}, .radius = 0.02});
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.load(1, counting({8}));
     ASSERT_TRUE(world.tap({1}).ok());
@@ -154,7 +149,7 @@ TEST(World, ATapAndACollisionAreTheSameEvent) {
 
 // 33 is too much and -1 is less than nothing: both are 32 (docs/spec, 4.6).
 TEST(World, LedsTakeTheMostForTooMuchAndForLessThanNothing) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     host.set(1, 100, {16, 33, -1});
     // init: leds.top(v100, v101, v102), native 35; addresses are pushed last argument first.
@@ -169,7 +164,7 @@ TEST(World, LedsTakeTheMostForTooMuchAndForLessThanNothing) {
 TEST(World, FiveSecondsAtFiveHundredAreEightyThreeCentimetres) {
     WorldDefinition definition = with_thymio();
     definition.robots[0].at = {0.3, 1};
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.set(1, kTargets, {500, 500});
     world.step(5s);
@@ -181,7 +176,7 @@ TEST(World, ASensorShowsTheWallAfterATenthOfASecond) {
     WorldDefinition definition = with_thymio();
     definition.objects.push_back(
         {.kind = ObjectKind::Wall, .at = {1.125, 1}, .width = 0.01, .length = 0.5});
-    World world = make(definition);
+    World world = make_world(definition);
     world.step(99ms);
     EXPECT_EQ(variable(world, kProx + 2), 0);
     world.step(1ms);
@@ -192,7 +187,7 @@ TEST(World, ANodeDescribesItselfOverTheBus) {
     WorldDefinition definition = with_thymio();
     definition.robots.push_back(
         {.name = "e", .type = RobotType::Epuck, .at = {0.5, 0.5}, .node = 2});
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.send(list_nodes());
     wire::GetNodeDescription ask{};
@@ -231,7 +226,7 @@ TEST(World, ANodeDescribesItselfOverTheBus) {
 TEST(World, UserEventsReachTheOtherRobotAndTheHostAMillisecondLater) {
     WorldDefinition definition = with_thymio();
     definition.robots.push_back({.name = "second", .at = {0.5, 0.5}, .node = 2});
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.set(1, 100, {42});
     host.load(1, {3, id_of(14), 3, 0xb003, 100, 1, 0x0000});  // on motor: emit 3 [v100]
@@ -250,7 +245,7 @@ TEST(World, UserEventsReachTheOtherRobotAndTheHostAMillisecondLater) {
 }
 
 TEST(World, AFaultIsToldWithItsPlace) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     host.load(1, {3, id_of(14), 3, 0x1001, 0x1000, 0x8005, 0x4064, 0x0000});  // 1 / 0
     world.step(10ms);
@@ -260,7 +255,7 @@ TEST(World, AFaultIsToldWithItsPlace) {
 }
 
 TEST(World, PosesAreToldTenTimesASecond) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     world.step(1s);
     size_t poses = 0;
     for (const Happening& happening : world.happenings())
@@ -281,7 +276,7 @@ TEST(World, TheTimelineActsAtItsInstants) {
         {Time(30ms), SwitchLight{"lamp", false}},
         {Time(40ms), PressButton{"thymio", "center", true}},
         {Time(50ms), RemoveObject{"wall"}}};
-    World world = make(definition);
+    World world = make_world(definition);
     EXPECT_TRUE(world.find_object("first").has_value());
     EXPECT_EQ(world.objects()[0].pose.at.x, 1.5);
     world.step(10ms);
@@ -302,7 +297,7 @@ TEST(World, TheTimelineActsAtItsInstants) {
 }
 
 TEST(World, HandlesOfObjectsAreNeverUsedAgain) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     const ObjectDefinition box = {
         .id = "box", .kind = ObjectKind::Box, .at = {0.5, 0.5}, .width = 0.1, .length = 0.1};
     const ObjectId first = world.add(box).value();
@@ -325,7 +320,7 @@ TEST(World, HandlesOfObjectsAreNeverUsedAgain) {
 TEST(World, OneMoreObjectThanTheMostIsRefused) {
     WorldDefinition definition = with_thymio();
     definition.objects.assign(kObjectsMax, {.kind = ObjectKind::Light, .at = {1, 1}});
-    World world = make(definition);
+    World world = make_world(definition);
     const Result<ObjectId> added = world.add({.kind = ObjectKind::Light, .at = {1, 1}});
     ASSERT_FALSE(added.ok());
     EXPECT_EQ(added.error().code, Code::Limit);
@@ -340,7 +335,7 @@ TEST(World, TenThousandRobotsLiveInOneWorldAndOneMoreDoesNot) {
                                             0.3 + 0.5 * static_cast<double>(i / 100)},
                                      .node = static_cast<uint16_t>(i + 1)});
     }
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.set(kRobotsMax, kTargets, {100, 100});
     const double before = world.robots().back().pose.at.x;
@@ -351,7 +346,7 @@ TEST(World, TenThousandRobotsLiveInOneWorldAndOneMoreDoesNot) {
 }
 
 TEST(World, WhatHappensBeyondTheLimitIsCounted) {
-    World world = make(with_thymio());
+    World world = make_world(with_thymio());
     Host host(world.bus());
     // init: emit event 0 without arguments, for ever: 500 a millisecond.
     host.load(1, {3, 0xffff, 3, 0xb000, 0, 0, 0x9ffd});
@@ -365,7 +360,7 @@ TEST(World, ARobotWithAPortIsAloneOnItsPrivateBus) {
     WorldDefinition definition = with_thymio();
     definition.robots[0].port = 4000;
     definition.robots.push_back({.name = "second", .at = {0.5, 0.5}, .node = 2});
-    World world = make(definition);
+    World world = make_world(definition);
     EXPECT_EQ(world.private_bus({2}), nullptr);
     ASSERT_NE(world.private_bus({1}), nullptr);
     Host host(*world.private_bus({1}));
@@ -381,7 +376,7 @@ TEST(World, ACarbotIsFourNodesOnBothItsBuses) {
     definition.robots[0].node = 9;
     definition.robots.push_back(
         {.name = "carbot", .type = RobotType::Carbot, .at = {0.5, 0.5}, .node = 5, .port = 4000});
-    World world = make(definition);
+    World world = make_world(definition);
     EXPECT_EQ(world.robots()[1].nodes, 4);
     Host host(world.bus());
     Host own(*world.private_bus({2}));
@@ -405,7 +400,7 @@ TEST(World, AfterAResetEverythingIsAsAtTheStart) {
                                   .width = 0.1,
                                   .length = 0.1,
                                   .mass = 0.1});
-    World world = make(definition);
+    World world = make_world(definition);
     Host host(world.bus());
     host.set(1, kTargets, {400, 400});
     world.step(5s);
@@ -453,7 +448,7 @@ uint64_t hash_of_run(Duration span, uint64_t seed) {
     }
     definition.robots.push_back(
         {.name = "e", .type = RobotType::Epuck, .at = {1, 1.2}, .angle = 2, .node = 9});
-    World world = make(definition, {.seed = seed, .folder = ".", .sd_folder = ""});
+    World world = make_world(definition, {.seed = seed, .folder = ".", .sd_folder = ""});
     Host host(world.bus());
     for (uint16_t node = 1; node <= 5; ++node) host.load(node, kAvoid);
     host.set(9, 35, {400, 450});
@@ -475,8 +470,8 @@ uint64_t hash_of_run(Duration span, uint64_t seed) {
 }
 
 TEST(World, TwoHalvesOfAnInstantAreAStep) {
-    World whole = make(with_thymio());
-    World halves = make(with_thymio());
+    World whole = make_world(with_thymio());
+    World halves = make_world(with_thymio());
     Host(whole.bus()).set(1, kTargets, {300, 200});
     Host(halves.bus()).set(1, kTargets, {300, 200});
     size_t poses = 0;

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr double kDegree = trig::kPi / 180;
+using trig::kDegree;
 
 TEST(Steering, WheelsAtOppositeAnglesDriveACurveRoundTheMiddle) {
     // tan d = 0.13 / 0.13: both wheels at 45 degrees, the radius is their distance from the middle.

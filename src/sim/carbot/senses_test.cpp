@@ -4,6 +4,7 @@
 #include "base/trig.hpp"
 #include "sim/carbot/head_senses.hpp"
 #include "sim/carbot/sonar.hpp"
+#include "sim/test_host.hpp"
 #include "sim/world.hpp"
 
 using namespace vagus;
@@ -13,7 +14,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr double kOneDegree = trig::kPi / 180;
+using trig::kDegree;
 
 // A robot at (5, 5) of an open field, looking along x: its rotator is at (5.18, 5).
 class Senses : public testing::Test {
@@ -106,24 +107,24 @@ TEST_F(Sounding, WhatIsNearerThanThreeCentimetresReadsSo) {
 // A wall through the point 1 m ahead, its normal 45 degrees off the axis. The ray at 12 degrees
 // toward the normal meets it first: cos 45 / cos (45 - 12) = 0.8431.
 TEST_F(Sounding, ASlantedWallIsHeardWhereTheConeMeetsItFirst) {
-    add_wall(1.0, 45 * kOneDegree);
+    add_wall(1.0, 45 * kDegree);
     EXPECT_NEAR(mean_distance(), 843.1, 2.5);
 }
 
 // 75 degrees off: even the ray at 12 degrees meets it at 63.
 TEST_F(Sounding, ASlantBeyondSixtyDegreesThrowsTheSoundElsewhere) {
-    add_wall(1.0, 75 * kOneDegree);
+    add_wall(1.0, 75 * kDegree);
     ping();
     EXPECT_EQ(sonar_.distance(), 0);
 }
 
 // 10 degrees off the axis is in the cone, 16 degrees is not (the post is 1.2 degrees wide).
 TEST_F(Sounding, HearsWhatIsInItsCone) {
-    add_post({5.18 + trig::cos(10 * kOneDegree), 5 + trig::sin(10 * kOneDegree)});
+    add_post({5.18 + trig::cos(10 * kDegree), 5 + trig::sin(10 * kDegree)});
     EXPECT_NEAR(mean_distance(), 980, 4);
 }
 TEST_F(Sounding, DoesNotHearWhatIsBesideItsCone) {
-    add_post({5.18 + trig::cos(16 * kOneDegree), 5 + trig::sin(16 * kOneDegree)});
+    add_post({5.18 + trig::cos(16 * kDegree), 5 + trig::sin(16 * kDegree)});
     ping();
     EXPECT_EQ(sonar_.distance(), 0);
 }
@@ -136,7 +137,7 @@ TEST_F(Sounding, HearsOverLowThingsTheWallBehind) {
 
 // What swallows the sound also hides what is behind it.
 TEST_F(Sounding, DoesNotHearThroughASlantedWall) {
-    add_wall(0.5, 80 * kOneDegree);
+    add_wall(0.5, 80 * kDegree);
     add_wall(1.5);
     ping();
     EXPECT_NE(sonar_.distance(), 500);
@@ -201,7 +202,7 @@ TEST_F(Infrared, TellsDirectionAndNearness) {
 }
 
 TEST_F(Infrared, TurnsWithTheRobot) {
-    arena_.place(body_, {{5, 5}, 90 * kOneDegree});
+    arena_.place(body_, {{5, 5}, 90 * kDegree});
     EXPECT_NEAR(mean_direction({{6, 6}}), -450, 4);
 }
 
@@ -271,17 +272,11 @@ WorldDefinition with_carbot() {
     return world;
 }
 
-World make(const WorldDefinition& definition) {
-    Result<World> world = World::create(definition, {});
-    EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().what);
-    return std::move(world.value());
-}
-
 // 1 m from the beacon: 750.
 TEST(CarbotInAWorld, SeesTheBeaconsThatAreOn) {
     WorldDefinition definition = with_carbot();
     definition.objects.push_back({.id = "lamp", .kind = ObjectKind::Infrared, .at = {3, 2}});
-    World world = make(definition);
+    World world = make_world(definition);
     world.step(50ms);
     EXPECT_EQ(world.variables_of(4)[kInfraredIntensity], 750);
     ASSERT_TRUE(world.switch_light(*world.find_object("lamp"), false).ok());
@@ -293,7 +288,7 @@ TEST(CarbotInAWorld, SeesTheColourOfAnObject) {
     WorldDefinition definition = with_carbot();
     definition.objects.push_back(
         {.kind = ObjectKind::Cylinder, .at = {2.4, 2}, .radius = 0.1, .colour = {0, 0.5, 1}});
-    World world = make(definition);
+    World world = make_world(definition);
     world.step(50ms);
     EXPECT_EQ(world.variables_of(4)[kColourNear], 1);
     EXPECT_EQ(world.variables_of(4)[kColourRgb + 1], 500);
@@ -303,7 +298,7 @@ TEST(CarbotInAWorld, SeesTheColourOfAnObject) {
 TEST(CarbotInAWorld, HasACameraAndAThymioHasNone) {
     WorldDefinition definition = with_carbot();
     definition.robots.push_back({.name = "thymio", .at = {1, 1}, .node = 9});
-    const World world = make(definition);
+    const World world = make_world(definition);
     const Result<Picture> picture = world.render(*world.find_robot("carbot"));
     ASSERT_TRUE(picture.ok());
     EXPECT_EQ(picture.value().width, 160u);
@@ -313,7 +308,7 @@ TEST(CarbotInAWorld, HasACameraAndAThymioHasNone) {
 }
 
 TEST(CarbotInAWorld, ItsNodesShareACanBus) {
-    const World world = make(with_carbot());
+    const World world = make_world(with_carbot());
     const BusLoad load = *world.bus_load();
     ASSERT_EQ(load.nodes.size(), 5u);
     EXPECT_EQ(load.nodes[0].load.name, "main");

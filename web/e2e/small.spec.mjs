@@ -1,6 +1,6 @@
 // A window of 720 x 450, which is also what a zoom of 200 % leaves of 1440 x 900: every control can be reached.
 import assert from 'node:assert/strict';
-import { gone, seen, test, until } from './support/studio.mjs';
+import { focused, gone, seen, test, until } from './support/studio.mjs';
 import { unreachable } from './support/reach.mjs';
 /** @import { Page } from './support/studio.mjs' */
 
@@ -55,6 +55,7 @@ for (const looks of [small, zoomed])
       for (const name of [/^Target/, /Speed of the clock/, /^Project:/, /^Export the drawing/]) {
         await button(name).click();
         await fits(page, String(name), kFloating);
+        await focused(page.locator('.menu'));
         await press('Escape');
         await gone(page.locator('.menu'));
       }
@@ -72,6 +73,7 @@ for (const looks of [small, zoomed])
       await page.getByRole('group', { name: /^followWall, actor/ }).click({ button: 'right' });
       await seen(page.getByRole('menuitem', { name: /delete the selection/ }));
       await fits(page, 'menu of an actor', kFloating);
+      await focused(page.locator('.menu'));
       await press('Escape');
       await gone(page.locator('.menu'));
     },

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { focused, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
 
 const element = (/** @type {Page} */ page, /** @type {string} */ name) =>
@@ -20,9 +20,7 @@ async function standsAtPlace(/** @type {Page} */ page) {
       return frame && top >= frame.top && bottom <= frame.bottom;
     }),
   );
-  await until('the editor has the keyboard', () =>
-    editor.evaluate((one) => one.contains(document.activeElement)),
-  );
+  await focused(editor);
 }
 
 async function asked(/** @type {Studio} */ { page, layout, button, press }) {

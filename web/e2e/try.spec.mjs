@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
 import { vagusProgram } from './support/server.mjs';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { focused, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
 const text = (/** @type {unknown} */ value) => `${JSON.stringify(value, null, 2)}\n`;
@@ -67,9 +67,7 @@ async function tries({ page, layout, command }) {
   await seen(page.getByRole('group', { name: /^drive, actor/ }));
   await command('Try the plan by hand');
   await reads(bar(page), /drive is active\. How does it end\?/);
-  await until('the keyboard is in it', () =>
-    bar(page).evaluate((one) => one.contains(document.activeElement)),
-  );
+  await focused(bar(page));
 }
 
 test('a plan is tried by keys, and its way becomes a test', project, async (studio) => {

@@ -213,5 +213,11 @@ export async function boxOf(locator) {
 
 /** @param {Locator} locator */
 export const seen = (locator) => locator.first().waitFor();
+/**
+ * Keys are for it, or for something in it.
+ * @param {Locator} locator
+ */
+export const focused = (locator) =>
+  until('it has the focus', () => locator.evaluate((one) => one.contains(document.activeElement)));
 /** @param {Locator} locator */
 export const gone = (locator) => locator.first().waitFor({ state: 'hidden' });

@@ -98,5 +98,6 @@ std::string format_json(const JsonValue& value);
 // A string as JSON, quotes included: `"`, `\` and characters below U+0020 escaped, bytes that are
 // no UTF-8 (names that came over a bus) as U+FFFD, all else as it is.
 std::string json_quote(std::string_view text);
+void append_json_quote(std::string& to, std::string_view text);
 
 }  // namespace vagus

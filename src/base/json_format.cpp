@@ -182,33 +182,39 @@ std::string format_json_line(const JsonValue& value) {
     return one_line(value);
 }
 
-std::string json_quote(std::string_view text) {
+void append_json_quote(std::string& to, std::string_view text) {
     constexpr std::string_view kEscaped = "\"\\\b\f\n\r\t";
     constexpr std::string_view kReplacement = "\ufffd";
     constexpr std::string_view kLetters = "\"\\bfnrt";
-    std::string quoted = "\"";
+    to += '"';
     // Nearly all texts are names and sentences of ASCII.
     const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; };
     const auto special = std::find_if_not(text.begin(), text.end(), is_plain);
     const auto plain = static_cast<size_t>(special - text.begin());
-    quoted.append(text.substr(0, plain));
+    to.append(text.substr(0, plain));
     text.remove_prefix(plain);
     while (!text.empty()) {
         const CodePoint point = first_code_point(text);
         const size_t bytes = std::max<size_t>(point.bytes, 1);
         const size_t escape = kEscaped.find(text[0]);
         if (escape != kEscaped.npos) {
-            quoted += {'\\', kLetters[escape]};
+            to += {'\\', kLetters[escape]};
         } else if (point.bytes == 0) {
-            quoted += kReplacement;
+            to += kReplacement;
         } else if (point.value < 0x20) {
-            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(point.value));
+            to += fmt::format("\\u{:04x}", static_cast<unsigned>(point.value));
         } else {
-            quoted += text.substr(0, bytes);
+            to += text.substr(0, bytes);
         }
         text.remove_prefix(bytes);
     }
-    return quoted + '"';
+    to += '"';
+}
+
+std::string json_quote(std::string_view text) {
+    std::string quoted;
+    append_json_quote(quoted, text);
+    return quoted;
 }
 
 }  // namespace vagus

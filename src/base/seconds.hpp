@@ -10,6 +10,7 @@ namespace vagus {
 
 // With all six decimals: "4.250000".
 std::string seconds_text(Time at);
+void append_seconds(std::string& to, Time at);
 
 // To the nearest microsecond.
 inline Duration from_seconds(double seconds) {

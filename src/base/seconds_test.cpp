@@ -12,6 +12,7 @@ TEST(Seconds, HaveSixDecimals) {
     EXPECT_EQ(seconds_text(42us), "0.000042");
     EXPECT_EQ(seconds_text(4250ms), "4.250000");
     EXPECT_EQ(seconds_text(3600s), "3600.000000");
+    EXPECT_EQ(seconds_text(-500ms), "-0.500000");
 }
 
 TEST(Seconds, AreRoundedToMicroseconds) {

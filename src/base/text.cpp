@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace vagus {
@@ -83,6 +84,13 @@ std::string_view utf8_prefix(std::string_view text, size_t bytes_max) {
     size_t size = bytes_max;
     while (size > 0 && is_utf8_continuation(text[size])) --size;
     return text.substr(0, size);
+}
+
+void append_number(std::string& to, int64_t number) {
+    constexpr size_t kLongest = 20;  // a sign and 19 digits
+    std::array<char, kLongest> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    to.append(digits.data(), end.ptr);
 }
 
 size_t count_code_points(std::string_view text) {

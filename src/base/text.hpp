@@ -35,6 +35,9 @@ constexpr bool is_utf8_continuation(char byte) {
 // The longest beginning of `text` with at most `bytes_max` bytes that cuts no character in two.
 std::string_view utf8_prefix(std::string_view text, size_t bytes_max);
 
+// In decimal digits.
+void append_number(std::string& to, int64_t number);
+
 // Number of code points; every byte of malformed text that is no continuation byte counts as one.
 size_t count_code_points(std::string_view text);
 

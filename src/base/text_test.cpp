@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace vagus {
 namespace {
 
@@ -27,6 +29,16 @@ TEST(Text, RefusesMalformedUtf8) {
 TEST(Text, FindsTheFirstMalformedByte) {
     EXPECT_EQ(malformed_utf8_at("aé€"), std::nullopt);
     EXPECT_EQ(malformed_utf8_at("aé\xff"), 3u);
+}
+
+TEST(Text, NumbersAreAppendedInDecimalDigits) {
+    std::string text = "n=";
+    append_number(text, 0);
+    append_number(text, -32768);
+    EXPECT_EQ(text, "n=0-32768");
+    text.clear();
+    append_number(text, std::numeric_limits<int64_t>::min());
+    EXPECT_EQ(text, "-9223372036854775808");
 }
 
 TEST(Text, EncodesWhatItDecodes) {

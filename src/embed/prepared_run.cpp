@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <random>
@@ -14,6 +15,7 @@
 #include "embed/bus_check.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
+#include "embed/world_pace.hpp"
 #include "net/links.hpp"
 #include "run/execution.hpp"
 #include "run/firing.hpp"
@@ -31,7 +33,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
 constexpr const char* kSomebody = "somebody";  // who ends a run, if nobody says
 constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
 
@@ -45,25 +46,6 @@ Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
     if (started.ok()) return started;
     return Error{Code::BadInput, fmt::format("--from {}: {}", actor, started.error().what)};
 }
-
-// Time that follows the wall clock from the first call on.
-class Pace {
-public:
-    // Those who have joined the bus are served meanwhile.
-    explicit Pace(net::Links& net) : net_(net) {}
-
-    void wait(Time at) {
-        const Time now = net_.now();
-        // The first instant, and one that came much too late: a pause, or too slow a machine.
-        if (!origin_ || now > *origin_ + at + kBehindMax) origin_ = now - at;
-        const Time due = *origin_ + at;
-        while (net_.now() < due) (void)net_.poll(due);
-    }
-
-private:
-    net::Links& net_;
-    std::optional<Duration> origin_;
-};
 
 Result<session::BusNames> names_of_project(const std::string& path) {
     const std::string text = TRY(read_file(path));
@@ -145,7 +127,9 @@ private:
     std::string who_aborts_;
     std::string ended_by_;  // this run
     bool deferred_ = false;
-    std::optional<std::string> asked_by_;  // where it is deferred, and not done yet
+    // Where it is deferred, and not done yet; each instant of a recorded run looks.
+    std::atomic<bool> is_asked_ = false;
+    std::string asked_by_;
 };
 
 // ---- making it ready ----
@@ -301,7 +285,7 @@ void PreparedRun::Insides::trace(const plan::TraceEvent& event) {
 Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     if (world_used) TRY(open_world());
     world_used = true;
-    Pace pace(*hosts);
+    WorldPace pace(*hosts);
     sim::WorldThreads threads(world->session().world(), !words.threads.empty());
     const auto clock = [this] { return hosts->now(); };
     const bool paced = words.clock != "virtual";
@@ -397,6 +381,7 @@ void PreparedRun::Insides::abort_it(const std::string& by) {
     if (!execution_) return;
     if (deferred_) {
         asked_by_ = by;
+        is_asked_ = true;
         return;
     }
     ended_by_ = by;
@@ -407,13 +392,12 @@ void PreparedRun::Insides::abort_it(const std::string& by) {
 }
 
 std::optional<std::string> PreparedRun::Insides::take_abort() {
+    if (!is_asked_) return std::nullopt;
     const std::lock_guard lock(mutex_);
-    std::optional<std::string> by = std::exchange(asked_by_, std::nullopt);
-    if (!by) return by;
-    deferred_ = false;
-    abort_it(*by);
+    is_asked_ = deferred_ = false;
+    abort_it(asked_by_);
     deferred_ = true;
-    return by;
+    return asked_by_;
 }
 
 void PreparedRun::Insides::follow_bus(BusTap* follows) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <string>
 #include <string_view>
@@ -80,11 +82,9 @@ public:
 private:
     template <size_t kBytes>
     Put& little(uint64_t value) {
-        std::array<char, kBytes> bytes;
-        for (char& byte : bytes) {
-            byte = static_cast<char>(value & 0xff);
-            value >>= 8;
-        }
+        static_assert(std::endian::native == std::endian::little);
+        std::array<char, sizeof value> bytes;
+        std::memcpy(bytes.data(), &value, sizeof value);
         to_.append(bytes.data(), kBytes);
         return *this;
     }

@@ -20,10 +20,10 @@ public:
         numbers_.emplace_back(first_.declare(topic), second_.declare(topic));
         return static_cast<uint16_t>(numbers_.size());
     }
-    void put(uint16_t topic, Time at, std::string data) override {
+    void put(uint16_t topic, Time at, std::string_view data) override {
         const auto [first, second] = numbers_[topic - 1u];
         first_.put(first, at, data);
-        second_.put(second, at, std::move(data));
+        second_.put(second, at, data);
     }
     // Worded at once: both need it.
     void put_later(uint16_t topic, Time at, size_t, Word word) override { put(topic, at, word()); }

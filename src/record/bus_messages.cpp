@@ -1,26 +1,24 @@
 #include "record/bus_messages.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <utility>
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "base/text.hpp"
 #include "debug/user_event.hpp"
 #include "mcap/records.hpp"
 
 namespace vagus::record {
 
-std::string format_frame(const RecordedFrame& recorded) {
+void append_frame(std::string& to, const PassedFrame& passed) {
     std::array<uint8_t, wire::kFrameMax> bytes;
-    const uint16_t size = wire::encode(recorded.frame, bytes.data());
-    std::string data;
-    mcap::Put put(data);
-    put.u32(recorded.number).u32(recorded.cause).u16(recorded.frame.source);
+    const uint16_t size = wire::encode(passed.frame, bytes.data());
+    mcap::Put put(to);
+    put.u32(passed.number).u32(passed.cause).u16(passed.frame.source);
     put.bytes({reinterpret_cast<const char*>(bytes.data()), size});
-    return data;
 }
 
 std::optional<RecordedFrame> read_frame(std::string_view data) {
@@ -45,21 +43,47 @@ RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::Use
             .arguments = std::move(event.arguments)};
 }
 
-std::string format_event(const RecordedEvent& event) {
-    const std::string by = event.by.empty() ? "" : ",\"by\":" + json_quote(event.by);
-    return fmt::format(R"({{"t":{},"frame":{},"node":{},"name":{},"args":{}{}}})",
-                       seconds_text(event.at), event.frame, event.node, json_quote(event.name),
-                       words_json(event.arguments), by);
+namespace {
+
+// "[1,-2]". Sensors with a hundred words say them fifty times a second: no call for each.
+void append_words(std::string& to, std::span<const int16_t> words) {
+    constexpr size_t kLongest = 7;  // "-32768,"
+    const size_t before = to.size();
+    to.resize(before + kLongest * words.size() + 2);
+    char* at = to.data() + before;
+    char* const end = to.data() + to.size();
+    *at++ = '[';
+    for (const int16_t word : words) {
+        at = std::to_chars(at, end, word).ptr;
+        *at++ = ',';
+    }
+    if (!words.empty()) --at;
+    *at++ = ']';
+    to.resize(static_cast<size_t>(at - to.data()));
 }
 
-std::string words_json(std::span<const int16_t> words) {
-    std::string text = "[";
-    for (const int16_t word : words) {
-        if (text.size() > 1) text += ',';
-        text += std::to_string(word);
+}  // namespace
+
+void append_event(std::string& to, const RecordedEvent& event) {
+    to += R"({"t":)";
+    append_seconds(to, event.at);
+    to += R"(,"frame":)";
+    append_number(to, event.frame);
+    to += R"(,"node":)";
+    append_number(to, event.node);
+    to += R"(,"name":)";
+    append_json_quote(to, event.name);
+    to += R"(,"args":)";
+    append_words(to, event.arguments);
+    if (!event.by.empty()) {
+        to += R"(,"by":)";
+        append_json_quote(to, event.by);
     }
-    return text + "]";
+    to += '}';
 }
+
+RecordedVariable::RecordedVariable(std::string_view name, uint16_t address_of, uint16_t size_of)
+    : key(json_quote(name) + ':'), address(address_of), size(size_of) {}
 
 namespace {
 
@@ -76,18 +100,23 @@ bool has_changed(const RecordedVariable& variable, std::span<const int16_t> befo
                                now.subspan(variable.address, variable.size));
 }
 
-std::string format_variables(std::span<const RecordedVariable* const> variables,
-                             std::span<const int16_t> now, bool all, Time at) {
-    std::string set;
-    for (const RecordedVariable* const one : variables) {
-        if (!is_in(*one, now)) continue;
-        const std::span<const int16_t> words = now.subspan(one->address, one->size);
-        if (!set.empty()) set += ',';
-        set += json_quote(one->name);
-        set += ':';
-        set += one->size == 1 ? std::to_string(words.front()) : words_json(words);
+void append_variables(std::string& to, const ToldVariables& told) {
+    to += R"({"t":)";
+    append_seconds(to, told.at);
+    to += told.all ? R"(,"all":true,"set":{)" : R"(,"all":false,"set":{)";
+    bool first = true;
+    for (const RecordedVariable* const one : told.variables) {
+        if (!is_in(*one, told.now)) continue;
+        if (!std::exchange(first, false)) to += ',';
+        to += one->key;
+        const std::span<const int16_t> words = told.now.subspan(one->address, one->size);
+        if (one->size == 1) {
+            append_number(to, words.front());
+        } else {
+            append_words(to, words);
+        }
     }
-    return fmt::format(R"({{"t":{},"all":{},"set":{{{}}}}})", seconds_text(at), all, set);
+    to += "}}";
 }
 
 }  // namespace vagus::record

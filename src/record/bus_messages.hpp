@@ -1,6 +1,7 @@
 // How a frame, an event and the variables of a node are written in a recording, and read again.
 //
-//     tape.put(frames, at, format_frame({.number = 7, .frame = frame}));
+//     append_frame(text, {.number = 7, .frame = frame});
+//     tape.put(frames, at, text);
 //     const auto recorded = read_frame(message.data);             // nothing: it is none
 #pragma once
 
@@ -23,7 +24,12 @@ struct RecordedFrame {
     wire::Frame frame = {};
 };
 
-std::string format_frame(const RecordedFrame& recorded);
+struct PassedFrame {
+    uint32_t number = 0;
+    uint32_t cause = 0;
+    const wire::Frame& frame;
+};
+void append_frame(std::string& to, const PassedFrame& passed);
 std::optional<RecordedFrame> read_frame(std::string_view data);
 
 struct RecordedEvent {
@@ -36,13 +42,11 @@ struct RecordedEvent {
 };
 // Decoded once, for all that write and read recordings. `number` is that of its frame.
 RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::UserEvent event);
-std::string format_event(const RecordedEvent& event);
-
-// "[1,-2]"
-std::string words_json(std::span<const int16_t> words);
+void append_event(std::string& to, const RecordedEvent& event);
 
 struct RecordedVariable {
-    std::string name;
+    RecordedVariable(std::string_view name, uint16_t address, uint16_t size);
+    std::string key;  // its name as one of JSON, and the colon behind it
     uint16_t address = 0;
     uint16_t size = 0;
 };
@@ -50,8 +54,13 @@ using RecordedVariables = std::vector<RecordedVariable>;
 // Whether it is in both, and not the same.
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
                  std::span<const int16_t> now);
-// Of those that are in `now`. `all`: they are all that the node has.
-std::string format_variables(std::span<const RecordedVariable* const> variables,
-                             std::span<const int16_t> now, bool all, Time at);
+// Those that are in `now`. `all`: they are all that the node has.
+struct ToldVariables {
+    std::span<const RecordedVariable* const> variables;
+    std::span<const int16_t> now;
+    bool all = false;
+    Time at{};
+};
+void append_variables(std::string& to, const ToldVariables& told);
 
 }  // namespace vagus::record

@@ -38,7 +38,7 @@ void BusRecorder::described(Time at, const debug::NodeView& node) {
             tape_.declare({.name = "/node/" + label + "/variables", .may_be_dropped = true});
     }
     for (const aesl::VariablePlace& one : debug::variables_of(node)) {
-        known.variables.push_back({one.name, one.address, one.size});
+        known.variables.emplace_back(one.name, one.address, one.size);
     }
     known.words.resize(node.target->variables_size);
     known.known.resize(known.words.size());
@@ -63,12 +63,16 @@ void BusRecorder::happened(Time at, const debug::Event& event) {
 uint32_t BusRecorder::frame(Time at, const Passed& passed) {
     const wire::Frame& frame = passed.frame;
     const uint32_t number = ++last_;
-    tape_.put(frames_, at, format_frame({number, passed.cause, frame}));
+    text_.clear();
+    append_frame(text_, {number, passed.cause, frame});
+    tape_.put(frames_, at, text_);
     if (wire::is_user_event(frame.type)) {
         RecordedEvent event =
             recorded_event(at, number, frame.source, debug::user_event_of(frame, common_));
         event.by = passed.by;
-        tape_.put(events_, at, format_event(event));
+        text_.clear();
+        append_event(text_, event);
+        tape_.put(events_, at, text_);
     } else if (frame.type == static_cast<uint16_t>(wire::MessageType::Variables)) {
         variables(at, frame);
     }
@@ -108,7 +112,9 @@ void BusRecorder::variables(Time at, const wire::Frame& frame) {
     told.insert(told.end(), changed.begin(), changed.end());
     if (told.empty()) return;
     const bool all = told.size() == node.variables.size();
-    tape_.put(node.topic, at, format_variables(told, node.words, all, at));
+    text_.clear();
+    append_variables(text_, {told, node.words, all, at});
+    tape_.put(node.topic, at, text_);
 }
 
 }  // namespace vagus::record

@@ -63,6 +63,7 @@ private:
     uint32_t last_ = 0;
     std::map<debug::NodeId, Node> nodes_;
     std::set<std::string> attached_;          // files
+    std::string text_;                        // of the message that is being made
     std::map<std::string, uint16_t> topics_;  // by name
 };
 

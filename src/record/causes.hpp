@@ -28,7 +28,7 @@ namespace vagus::record {
 class NullTape final : public Tape {
 public:
     uint16_t declare(const Topic&) override { return 1; }
-    void put(uint16_t, Time, std::string) override {}
+    void put(uint16_t, Time, std::string_view) override {}
     void put_later(uint16_t, Time, size_t, Word) override {}
 };
 

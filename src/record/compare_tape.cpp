@@ -101,7 +101,7 @@ void CompareTape::differs(Difference found) {
     if (!difference_ || found.at < difference_->at) difference_ = std::move(found);
 }
 
-void CompareTape::put(uint16_t topic, Time at, std::string data) {
+void CompareTape::put(uint16_t topic, Time at, std::string_view data) {
     if (over_ || topic == 0 || !counts(topics_[topic - 1u].name)) return;
     if (at > until_ || (difference_ && at > difference_->at)) return;
     std::optional<Recorded> recorded = take(topic);
@@ -114,13 +114,14 @@ void CompareTape::put(uint16_t topic, Time at, std::string data) {
     }
     ++compared_;
     if (recorded && recorded->at == at && recorded->data == data) return;
-    Difference found =
-        recorded && recorded->at == at ? first_difference(recorded->data, data) : Difference{};
+    Difference found = recorded && recorded->at == at
+                           ? first_difference(recorded->data, std::string(data))
+                           : Difference{};
     if (!recorded || recorded->at != at) {
         const bool later = !recorded || recorded->at > at;
         found.at = later ? at : recorded->at;
-        found.now = later ? data : "";
-        found.then = later ? "" : recorded->data;
+        if (later) found.now = data;
+        if (!later) found.then = recorded->data;
     } else {
         found.at = at;
     }

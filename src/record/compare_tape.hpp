@@ -43,7 +43,7 @@ public:
                          Time until = Time::max());
 
     uint16_t declare(const Topic& topic) override;
-    void put(uint16_t topic, Time at, std::string data) override;
+    void put(uint16_t topic, Time at, std::string_view data) override;
     void put_later(uint16_t topic, Time at, size_t, Word word) override { put(topic, at, word()); }
     // All that was recorded must have come again, but for an input behind the instant `until`, and
     // what followed from it then. Nothing more is compared. The Error says that the recording was

@@ -38,8 +38,11 @@ void FileTape::attach(const std::string& name, std::string_view content) {
 }
 
 void FileTape::attach_later(const std::string& name, std::string content) {
-    const size_t bytes = content.size();
-    wait_for({.data = std::move(content), .bytes = bytes, .attached = name});
+    const Message message{.kind = Message::Kind::File, .bytes = content.size()};
+    if (const auto lock = room_for(message)) {
+        waiting_.files.emplace_back(name, std::move(content));
+        keep(message);
+    }
 }
 
 void FileTape::write_attachment(const std::string& name, std::string_view content) {
@@ -54,29 +57,40 @@ uint16_t FileTape::declare(const Topic& topic) {
     return static_cast<uint16_t>(topics_.size());
 }
 
-void FileTape::put(uint16_t topic, Time at, std::string data) {
-    const size_t bytes = data.size();
-    wait_for({.topic = topic, .at = at, .data = std::move(data), .bytes = bytes});
+void FileTape::put(uint16_t topic, Time at, std::string_view data) {
+    const Message message{.topic = topic, .at = at, .bytes = data.size()};
+    if (const auto lock = room_for(message)) {
+        waiting_.text.append(data);
+        keep(message);
+    }
 }
 
 void FileTape::put_later(uint16_t topic, Time at, size_t about_bytes, Word word) {
-    wait_for({.topic = topic, .at = at, .bytes = about_bytes, .word = std::move(word)});
+    const Message message{Message::Kind::Later, topic, at, about_bytes};
+    if (const auto lock = room_for(message)) {
+        waiting_.words.push_back(std::move(word));
+        keep(message);
+    }
 }
 
-void FileTape::wait_for(Message message) {
+std::unique_lock<std::mutex> FileTape::room_for(const Message& message) {
     std::unique_lock lock(mutex_);
     if (pace_ == Pace::Waits) {
         room_.wait(lock, [this] { return waiting_bytes_ < kDropFrom || !state_.ok(); });
     }
-    const bool is_file = !message.attached.empty();
-    if (over_ || !state_.ok() || (message.topic == 0 && !is_file)) return;
+    const bool is_file = message.kind == Message::Kind::File;
+    if (over_ || !state_.ok() || (message.topic == 0 && !is_file)) return {};
     if (waiting_bytes_ >= kDropFrom && !is_file && topics_[message.topic - 1u].may_be_dropped) {
         ++dropped_;
-        return;
+        return {};
     }
+    return lock;
+}
+
+void FileTape::keep(const Message& message) {
     const size_t before = waiting_bytes_;
     waiting_bytes_ += message.bytes;
-    waiting_.push_back(std::move(message));
+    waiting_.messages.push_back(message);
     if (before < kWakeAt && waiting_bytes_ >= kWakeAt) more_.notify_one();
     if (waiting_bytes_ < kWaitingMax) return;
     state_ = Error{Code::Limit, "the recording ends here: the disk is too slow, " +
@@ -84,10 +98,16 @@ void FileTape::wait_for(Message message) {
                                     " MB wait to be written; record to a faster disk"};
 }
 
+void FileTape::Waiting::clear() {
+    messages.clear();
+    text.clear();
+    words.clear();
+    files.clear();
+}
+
 void FileTape::work() {
     bool last = false;
     size_t known = 0;  // of the topics
-    std::vector<Message> messages;
     while (!last) {
         std::vector<Topic> declared;
         uint64_t flush = 0;
@@ -96,22 +116,20 @@ void FileTape::work() {
             more_.wait_for(lock, kFlushEvery, [this] {
                 return over_ || waiting_bytes_ >= kWakeAt || flush_wanted_ != flush_done_;
             });
-            messages.swap(waiting_);  // which keeps its room
+            std::swap(writing_now_, waiting_);
             last = over_;
             flush = flush_wanted_;
             declared.assign(topics_.begin() + static_cast<std::ptrdiff_t>(known), topics_.end());
         }
         known += declared.size();
-        write(messages, declared, last);
-        messages.clear();
+        write(declared, last);
+        writing_now_.clear();
         const std::lock_guard lock(mutex_);
         flush_done_ = flush;
     }
 }
 
-void FileTape::write(const std::vector<Message>& messages, const std::vector<Topic>& declared,
-                     bool last) {
-    size_t bytes = 0;
+void FileTape::write(const std::vector<Topic>& declared, bool last) {
     Status written = Status::done();
     {
         const std::lock_guard lock(writing_);
@@ -126,23 +144,36 @@ void FileTape::write(const std::vector<Message>& messages, const std::vector<Top
             }
             channels_.push_back(writer_.add_channel(std::move(channel)));
         }
-        for (const Message& message : messages) {
-            write(message);
-            bytes += message.bytes;
-        }
+        write_all(writing_now_);
         written = last ? writer_.end() : writer_.flush();
         bytes_ = writer_.bytes();
     }
+    size_t bytes = 0;
+    for (const Message& message : writing_now_.messages) bytes += message.bytes;
     const std::lock_guard lock(mutex_);
     waiting_bytes_ -= bytes;
     if (state_.ok()) state_ = written;
     room_.notify_one();
 }
 
-void FileTape::write(const Message& message) {
-    if (!message.attached.empty()) return write_attachment(message.attached, message.data);
-    writer_.write(channels_[message.topic - 1u], nanoseconds(message.at),
-                  message.word ? message.word() : message.data);
+void FileTape::write_all(const Waiting& waiting) {
+    PieceText::Reading text(waiting.text);
+    auto word = waiting.words.begin();
+    auto file = waiting.files.begin();
+    for (const Message& message : waiting.messages) {
+        if (message.kind == Message::Kind::File) {
+            write_attachment(file->first, file->second);
+            ++file;
+            continue;
+        }
+        const uint16_t channel = channels_[message.topic - 1u];
+        const uint64_t at = nanoseconds(message.at);
+        if (message.kind == Message::Kind::Later) {
+            writer_.write(channel, at, (*word++)());
+        } else {
+            writer_.write(channel, at, text.next(message.bytes));
+        }
+    }
 }
 
 Status FileTape::end() {

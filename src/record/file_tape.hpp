@@ -18,11 +18,13 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/file.hpp"
 #include "base/result.hpp"
 #include "mcap/writer.hpp"
+#include "record/piece_text.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
 
@@ -30,7 +32,7 @@ namespace vagus::record {
 
 constexpr size_t kDropFrom = 64u << 20;     // bytes that wait
 constexpr size_t kWaitingMax = 256u << 20;  // the same
-constexpr size_t kWakeAt = 1u << 20;        // the thread begins earlier than it must
+constexpr size_t kWakeAt = 256u << 10;      // the thread begins earlier than it must
 constexpr std::chrono::milliseconds kFlushEvery{1000};
 
 enum class Pace { NeverWaits, Waits };
@@ -50,7 +52,7 @@ public:
     // The same while the run goes on, as a message: nobody waits.
     void attach_later(const std::string& name, std::string content);
     uint16_t declare(const Topic& topic) override;
-    void put(uint16_t topic, Time at, std::string data) override;
+    void put(uint16_t topic, Time at, std::string_view data) override;
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override;
     // Waits until all is written. The first thing that went wrong since the beginning.
     Status end();
@@ -64,20 +66,31 @@ public:
 
 private:
     struct Message {
+        enum class Kind : uint8_t { Text, Later, File };
+        Kind kind = Kind::Text;
         uint16_t topic = 0;
         Time at{};
-        std::string data = {};
-        size_t bytes = 0;
-        Word word = {};             // instead of the data
-        std::string attached = {};  // the data is a file of that name
+        size_t bytes = 0;  // of the text, or about so many
     };
-    void wait_for(Message message);
+    // What waits, in its order. A run makes a thousand messages a second, and a thread that frees
+    // what another one has allocated is slow: so two of these are swapped, and keep their room.
+    struct Waiting {
+        std::vector<Message> messages;
+        PieceText text;  // of all messages that have one
+        std::vector<Word> words;
+        std::vector<std::pair<std::string, std::string>> files;  // name, content
+        void clear();
+    };
+    // Locks for one message. Not owned: it is dropped, or the tape is over.
+    std::unique_lock<std::mutex> room_for(const Message& message);
+    void keep(const Message& message);
     void work();
-    void write(const std::vector<Message>& messages, const std::vector<Topic>& declared, bool last);
-    void write(const Message& message);
+    void write(const std::vector<Topic>& declared, bool last);
+    void write_all(const Waiting& waiting);
     void write_attachment(const std::string& name, std::string_view content);
 
     const Pace pace_;
+    Waiting writing_now_;  // of the thread
     std::atomic<uint64_t> bytes_ = 0;
     std::mutex writing_;  // guards the next two; held while the disk is waited for
     mcap::Writer writer_;
@@ -86,7 +99,7 @@ private:
     std::vector<Topic> topics_;       // by number - 1
     std::condition_variable more_;
     std::condition_variable room_;
-    std::vector<Message> waiting_;
+    Waiting waiting_;
     size_t waiting_bytes_ = 0;  // and those that are being written
     uint64_t dropped_ = 0;
     uint64_t flush_wanted_ = 0;  // number of the last

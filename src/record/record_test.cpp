@@ -223,6 +223,33 @@ TEST(FileTape, OnASlowDiskSamplesAreDroppedAndThenItEnds) {
     EXPECT_TRUE(mcap::Reader::open(disk.bytes, "slow.mcap").ok());
 }
 
+// Messages of one second, some of them longer than a piece of the text in which they wait.
+TEST(FileTape, MessagesKeepTheirOrderAndTheirLengths) {
+    std::string bytes;
+    const size_t lengths[] = {1, kPieceBytes - 1, 0, kPieceBytes + 1, 7, 3 * kPieceBytes, 2};
+    {
+        FileTape tape(
+            [&bytes](std::string_view more) {
+                bytes += more;
+                return Status::done();
+            },
+            Pace::Waits);
+        const uint16_t topic = tape.declare({.name = "/in"});
+        for (const size_t length : lengths) {
+            tape.put(topic, 1s, std::string(length, 'a'));
+            tape.put_later(topic, 1s, 1, [length] { return std::to_string(length); });
+        }
+    }
+    const auto reader = mcap::Reader::open(bytes, "a.mcap");
+    ASSERT_TRUE(reader.ok());
+    mcap::Cursor cursor(reader.value());
+    for (const size_t length : lengths) {
+        EXPECT_EQ(cursor.next()->data, std::string(length, 'a'));
+        EXPECT_EQ(cursor.next()->data, std::to_string(length));
+    }
+    EXPECT_FALSE(cursor.next());
+}
+
 TEST(FileTape, WhatIsThereIsWrittenWhenItIsAskedFor) {
     SlowDisk disk;
     FileTape tape([&disk](std::string_view bytes) { return disk.write(bytes); }, Pace::NeverWaits);

@@ -40,6 +40,23 @@ std::string bytes_of(const sim::Pose& pose) {
     return bytes;
 }
 
+// From the first word that is another than before to the last.
+struct ChangedWords {
+    size_t begin = 0, end = 0;
+    bool touches(const RecordedVariable& one) const {
+        return one.address < end && size_t{one.address} + one.size > begin;
+    }
+};
+
+// Of as many words before as now.
+ChangedWords changed_words(std::span<const int16_t> before, std::span<const int16_t> now) {
+    const auto first = std::ranges::mismatch(before, now).in1;
+    auto last = before.end();
+    for (auto other = now.end(); last != first && last[-1] == other[-1]; --last) --other;
+    return {static_cast<size_t>(first - before.begin()),
+            static_cast<size_t>(last - before.begin())};
+}
+
 // ---- foxglove.CompressedImage ----
 
 std::string compressed_image(const sim::Picture& picture, const std::string& robot, Time at) {
@@ -151,11 +168,14 @@ void Recorder::follow_bus(session::SimSession& session) {
 void Recorder::instant() {
     const Time at = now();
     if (chaos_ != 0) chaos();
-    if (at % kSamplesEvery == Duration::zero()) samples(at);
+    if (at >= samples_not_before_) samples(at);
     if (after_instant_) after_instant_(at);
 }
 
 void Recorder::samples(Time at) {
+    const Duration since = at % kSamplesEvery;
+    samples_not_before_ = at - since + kSamplesEvery;
+    if (since != Duration::zero()) return;
     look_for_nodes();
     const bool all = at % kPictureEvery == Duration::zero();
     for (Node& node : nodes_) variables(node, at, all);
@@ -225,13 +245,17 @@ void Recorder::trace(const plan::TraceEvent& event) {
 void Recorder::frame(const wire::Frame& frame, uint32_t number) {
     const Time at = now();
     const uint32_t cause = session_->world().frame_numbers()->cause_of(number);
-    tape_.put(frames_, at, format_frame({number, cause, frame}));
+    text_.clear();
+    append_frame(text_, {number, cause, frame});
+    tape_.put(frames_, at, text_);
 }
 
 void Recorder::heard(const debug::Event& event) {
     const auto* const sent = std::get_if<debug::UserEvent>(&event.what);
     if (sent == nullptr) return;
-    tape_.put(events_, now(), format_event(recorded_event(now(), event.frame, event.node, *sent)));
+    text_.clear();
+    append_event(text_, recorded_event(now(), event.frame, event.node, *sent));
+    tape_.put(events_, now(), text_);
 }
 
 // ---- nodes ----
@@ -260,53 +284,50 @@ void Recorder::look_for_nodes() {
 
 void Recorder::learn_variables(Node& node) {
     const aesl::Program* const program = session_->program(node.id);
-    if (node.variables && program == node.program) return;
+    if (!node.variables.empty() && program == node.program) return;
     const aesl::Target* const target = session_->target(node.id);
     if (target == nullptr) return;
     node.program = program;
     node.pictured = false;
-    auto variables = std::make_shared<RecordedVariables>();
+    node.variables.clear();
     uint16_t address = 0;
     for (const aesl::NamedVariable& one : target->variables) {
-        variables->push_back({one.name, address, one.size});
+        node.variables.emplace_back(one.name, address, one.size);
         address = static_cast<uint16_t>(address + one.size);
     }
     if (program != nullptr) {
         for (const aesl::VariablePlace& one : program->variables) {
-            if (one.address >= address) variables->push_back({one.name, one.address, one.size});
+            if (one.address < address) continue;
+            node.variables.emplace_back(one.name, one.address, one.size);
         }
     }
     node.named = 0;
-    for (const RecordedVariable& one : *variables) {
+    for (const RecordedVariable& one : node.variables) {
         node.named = std::max(node.named, size_t{one.address} + one.size);
     }
-    node.variables = std::move(variables);
 }
 
 void Recorder::variables(Node& node, Time at, bool all) {
     if (node.topic == 0) return;
     learn_variables(node);
-    if (!node.variables) return;
+    if (node.variables.empty()) return;
     auto words = session_->world().variables(node.robot, node.id);
-    // Of JSON, at most: most messages take less. Chunks are short by that, and so is what is lost
-    // where a run in virtual time is killed.
-    constexpr size_t kBytesOfWord = 8;
-    const size_t bytes = kBytesOfWord * words.size();
     words = words.first(std::min(words.size(), node.named));
-    const bool picture = all || !node.pictured || words.size() != node.words->size();
-    if (!picture && std::equal(words.begin(), words.end(), node.words->begin())) return;
-    std::shared_ptr<const Words> before =
-        std::exchange(node.words, std::make_shared<const Words>(words.begin(), words.end()));
+    const bool picture = all || !node.pictured || words.size() != node.words.size();
+    // As bytes: nearly always nothing has changed.
+    if (!picture && std::ranges::equal(words, node.words)) return;
+    const ChangedWords changed = picture ? ChangedWords{} : changed_words(node.words, words);
+    told_.clear();
+    for (const RecordedVariable& one : node.variables) {
+        if (picture || (changed.touches(one) && has_changed(one, node.words, words))) {
+            told_.push_back(&one);
+        }
+    }
+    node.words.assign(words.begin(), words.end());
     node.pictured = true;
-    tape_.put_later(
-        node.topic, at, bytes,
-        [names = node.variables, before = std::move(before), now = node.words, picture, at] {
-            std::vector<const RecordedVariable*> told;
-            for (const RecordedVariable& one : *names) {
-                if (picture || has_changed(one, *before, *now)) told.push_back(&one);
-            }
-            return format_variables(told, *now, picture, at);
-        });
+    text_.clear();
+    append_variables(text_, {told_, words, picture, at});
+    tape_.put(node.topic, at, text_);
 }
 
 // ---- the world ----

@@ -13,7 +13,6 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -81,7 +80,6 @@ public:
     std::string check_text(Time at) const;
 
 private:
-    using Words = std::vector<int16_t>;
     struct Node {
         sim::RobotId robot;
         uint16_t id = 0;
@@ -89,10 +87,8 @@ private:
         uint16_t topic = 0;
         const void* program = nullptr;  // whose variables these are
         size_t named = 0;               // words, from the first on: behind them none has a name
-        // Both are shared with what is still to be worded. The words are those with names, as they
-        // were recorded.
-        std::shared_ptr<const RecordedVariables> variables;
-        std::shared_ptr<const Words> words = std::make_shared<const Words>();
+        RecordedVariables variables;
+        std::vector<int16_t> words;  // those with names, as they were recorded
         bool pictured = false;
     };
 
@@ -136,9 +132,13 @@ private:
     uint16_t scene_ = 0;
     uint16_t chaos_ = 0;       // 0: nothing breaks in this run
     hub::LinkId last_inside_;  // of the links of the bus that are part of the run
+    Time samples_not_before_{};
     uint32_t turn_ = 0;
     bool turn_begins_ = false;
     std::vector<Node> nodes_;
+    // Of the message that is being made.
+    std::string text_;
+    std::vector<const RecordedVariable*> told_;
     std::vector<Camera> cameras_;
     std::string objects_;     // as the scene told them last
     uint64_t plan_hash_ = 0;  // of all lines of the trace so far

@@ -258,8 +258,8 @@ class EndingTape final : public Tape {
 public:
     explicit EndingTape(Tape& to) : to_(to) {}
     uint16_t declare(const Topic& topic) override { return to_.declare(topic); }
-    void put(uint16_t topic, Time at, std::string data) override {
-        if (!over_) to_.put(topic, at, std::move(data));
+    void put(uint16_t topic, Time at, std::string_view data) override {
+        if (!over_) to_.put(topic, at, data);
     }
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override {
         if (!over_) to_.put_later(topic, at, about_bytes, std::move(word));

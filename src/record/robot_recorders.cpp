@@ -19,8 +19,8 @@ public:
         below.name = prefix_ + topic.name;
         return tape_.declare(below);
     }
-    void put(uint16_t topic, Time at, std::string data) override {
-        tape_.put(topic, at, std::move(data));
+    void put(uint16_t topic, Time at, std::string_view data) override {
+        tape_.put(topic, at, data);
     }
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override {
         tape_.put_later(topic, at, about_bytes, std::move(word));

@@ -57,7 +57,7 @@ public:
     Tape& operator=(const Tape&) = delete;
     virtual ~Tape() = default;
     virtual uint16_t declare(const Topic& topic) = 0;
-    virtual void put(uint16_t topic, Time at, std::string data) = 0;
+    virtual void put(uint16_t topic, Time at, std::string_view data) = 0;
     // The same of a message that is still to be worded, perhaps on another thread, and soon: what
     // it needs it owns.
     using Word = std::function<std::string()>;

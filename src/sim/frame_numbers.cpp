@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
+#include <utility>
 
 namespace vagus::sim {
 
 namespace {
 
 constexpr uint64_t kNoFrame = 0;
+constexpr size_t kNewestMin = 256;  // places; a power of two, as all their numbers
 
 }  // namespace
 
@@ -19,44 +20,87 @@ uint64_t FrameNumbers::key_of(const FrameOnBus& one) {
     const uint16_t size = wire::encode(one.frame, bytes.data());
     uint64_t key = (0xcbf29ce484222325u ^ one.bus) * kPrime;
     for (uint16_t i = 0; i < size; ++i) key = (key ^ bytes[i]) * kPrime;
-    return key;
+    return key == kNoFrame ? 1 : key;
 }
 
-uint32_t FrameNumbers::add(uint64_t key, uint32_t cause) {
-    key_of_.push_back(key);
-    causes_.push_back(cause);
-    return static_cast<uint32_t>(causes_.size());
+// ---- the newest frame of each key: open addressing, the next place where one is taken ----
+
+size_t FrameNumbers::home_of(uint64_t key) const {
+    constexpr int kUpperBits = 32;  // FNV mixes upwards
+    return (key ^ key >> kUpperBits) & (newest_.size() - 1);
 }
+
+// Where its newest frame is, or would be.
+size_t FrameNumbers::place_of(uint64_t key) const {
+    size_t place = home_of(key);
+    while (newest_[place] != 0 && sent_[newest_[place] - 1].key != key) place = after(place);
+    return place;
+}
+
+void FrameNumbers::grow() {
+    const std::vector<uint32_t> before =
+        std::exchange(newest_, std::vector<uint32_t>(std::max(kNewestMin, 2 * newest_.size())));
+    for (const uint32_t number : before) {
+        if (number != 0) newest_[place_of(sent_[number - 1].key)] = number;
+    }
+}
+
+// Those behind it move up, as far as they may.
+void FrameNumbers::empty(size_t place) {
+    newest_[place] = 0;
+    --keys_;
+    for (size_t next = after(place); newest_[next] != 0; next = after(next)) {
+        const size_t home = home_of(sent_[newest_[next] - 1].key);
+        const bool stays =
+            place < next ? place < home && home <= next : place < home || home <= next;
+        if (stays) continue;
+        newest_[place] = std::exchange(newest_[next], 0);
+        place = next;
+    }
+}
+
+// ---- frames ----
 
 uint32_t FrameNumbers::sent(const FrameOnBus& one, uint32_t cause) {
+    if (2 * keys_ >= newest_.size()) grow();
     const uint64_t key = key_of(one);
-    const uint32_t number = add(key, cause);
-    of_bytes_[key].push_back(number);
-    if (causes_.size() - forgotten_ > kFramesOnTheirWay) forget();
+    uint32_t& newest = newest_[place_of(key)];
+    if (newest == 0) ++keys_;
+    sent_.push_back({key, cause, newest});
+    newest = static_cast<uint32_t>(sent_.size());
+    const uint32_t number = newest;
+    if (sent_.size() - forgotten_ > kFramesOnTheirWay) forget();
     return number;
 }
 
 uint32_t FrameNumbers::other(uint32_t cause) {
-    return add(kNoFrame, cause);
+    sent_.push_back({kNoFrame, cause, 0});
+    return static_cast<uint32_t>(sent_.size());
 }
 
+// The oldest. Newer ones of its key do not lead to it any more (find()).
 void FrameNumbers::forget() {
-    const auto found = of_bytes_.find(key_of_[forgotten_++]);
-    if (found == of_bytes_.end()) return;  // it was no frame
-    std::vector<uint32_t>& numbers = found->second;
-    numbers.erase(numbers.begin());
-    if (numbers.empty()) of_bytes_.erase(found);
+    const auto number = static_cast<uint32_t>(++forgotten_);
+    const uint64_t key = sent_[number - 1].key;
+    if (key == kNoFrame) return;
+    const size_t place = place_of(key);
+    if (newest_[place] == number) empty(place);
 }
 
 uint32_t FrameNumbers::find(const FrameOnBus& one, uint32_t after) const {
-    const auto found = of_bytes_.find(key_of(one));
-    if (found == of_bytes_.end()) return 0;
-    const auto next = std::upper_bound(found->second.begin(), found->second.end(), after);
-    return next == found->second.end() ? 0 : *next;
+    if (newest_.empty()) return 0;
+    const auto too_old = std::max(after, static_cast<uint32_t>(forgotten_));
+    uint32_t found = newest_[place_of(key_of(one))];
+    if (found <= too_old) return 0;
+    // Whoever keeps up has few to go back.
+    for (size_t i = 1; i < kEqualFramesMax && sent_[found - 1].before > too_old; ++i) {
+        found = sent_[found - 1].before;
+    }
+    return found;
 }
 
 uint32_t FrameNumbers::cause_of(uint32_t number) const {
-    return number == 0 || number > causes_.size() ? 0 : causes_[number - 1];
+    return number == 0 || number > sent_.size() ? 0 : sent_[number - 1].cause;
 }
 
 }  // namespace vagus::sim

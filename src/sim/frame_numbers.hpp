@@ -16,7 +16,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "wire/frame.hpp"
@@ -24,6 +23,8 @@
 namespace vagus::sim {
 
 constexpr size_t kFramesOnTheirWay = 65536;  // older ones are not found any more
+// Of equal frames; who has taken none of the newest so many takes the oldest of these.
+constexpr size_t kEqualFramesMax = 1024;
 
 // A frame on one of the buses of a world: 0 is the common one, else that of the robot with this
 // number.
@@ -44,14 +45,23 @@ public:
     uint32_t cause_of(uint32_t number) const;
 
 private:
+    struct Sent {
+        uint64_t key = 0;
+        uint32_t cause = 0;
+        uint32_t before = 0;  // the number of the last one with the same bytes; 0: there was none
+    };
     static uint64_t key_of(const FrameOnBus& one);
-    uint32_t add(uint64_t key, uint32_t cause);
+    size_t home_of(uint64_t key) const;
+    size_t place_of(uint64_t key) const;
+    size_t after(size_t place) const { return (place + 1) & (newest_.size() - 1); }
+    void grow();
+    void empty(size_t place);
     void forget();
 
-    std::unordered_map<uint64_t, std::vector<uint32_t>> of_bytes_;
-    std::vector<uint64_t> key_of_;  // by number - 1
-    std::vector<uint32_t> causes_;  // by number - 1
-    size_t forgotten_ = 0;          // the first so many are not in of_bytes_ any more
+    std::vector<Sent> sent_;        // by number - 1
+    std::vector<uint32_t> newest_;  // numbers, by key; 0: that place is empty
+    size_t keys_ = 0;               // places that are not
+    size_t forgotten_ = 0;          // the first so many are not found any more
 };
 
 }  // namespace vagus::sim

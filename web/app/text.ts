@@ -348,6 +348,8 @@ export const text = {
   },
   run: {
     none: 'Stopped',
+    lostRun:
+      'The studio was started again, and the run ended with it. What was recorded is in the timeline: Open a run before this one.',
     running: 'Running',
     paused: 'Paused',
     ended: 'Ended',

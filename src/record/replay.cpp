@@ -429,12 +429,12 @@ private:
     // What was not done to the paused plan lets it go on.
     void while_paused() {
         hear_debugger();
-        if (over_) return post(run::Abort{});
-        if (next_input_ >= inputs_.size()) {
+        if (!over_ && next_input_ >= inputs_.size()) {
+            if (paused_end_) paused_end_();
             tape_->end();
             over_ = true;
-            return post(run::Abort{});
         }
+        if (over_) return post(run::Abort{});
         if (!is_due()) return post(run::Continue{});
         obey(do_turn(*recorder_));
     }

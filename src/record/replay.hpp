@@ -97,6 +97,9 @@ public:
     // The same of robots with projects of their own, and more. Borrowed; nullptr: nobody.
     virtual void watch_robots(embed::RobotsWatcher*) {}
     void each_instant(std::function<void(Time)> look) { looks_.push_back(std::move(look)); }
+    // Before run(): is told that no more was recorded while the plan is paused, in the middle of an
+    // instant. It is ended then.
+    void when_paused_at_end(std::function<void()> told) { paused_end_ = std::move(told); }
     // Before run(): is told of each act of a person, before it is done again.
     void before_act(std::function<void(const sim::Act&)> told) { told_of_act_ = std::move(told); }
     // From a listener: no more of it is wanted.
@@ -187,6 +190,7 @@ protected:
     bool another_way_ = false;  // options.from
     Status changed_ = Status::done();
     std::vector<std::function<void(Time)>> looks_;
+    std::function<void()> paused_end_;
     std::function<void(const sim::Act&)> told_of_act_;
     bool stopped_ = false;
     std::optional<std::string> ended_by_;  // who ended it then

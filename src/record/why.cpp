@@ -85,6 +85,9 @@ Result<Chain> why(const mcap::Reader& reader, const Question& question, std::opt
         rerun->each_instant([&](Time now) {
             if (now >= *at && !answer) answer_now();
         });
+        rerun->when_paused_at_end([&] {
+            if (!answer) answer_now();
+        });
     }
     (void)TRY(rerun->run(tape));
     TRY(check_in_step(reader, *rerun, at));

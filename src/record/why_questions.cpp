@@ -51,12 +51,18 @@ Error Walk::nothing_of(std::string_view kind, const std::string& name) {
 }
 
 Status Walk::actor(const std::string& name) {
+    // A plan that is paused before an actor has told already what leads to it.
+    bool begun = false;
     for (size_t i = lines().size(); i-- > 0;) {
         const auto* const started = what<plan::ActorStarted>(i);
         const auto* const ended = what<plan::ActorEnded>(i);
         const auto* const broken = what<plan::ActorInterrupted>(i);
+        const auto* const raised = what<plan::EventRaised>(i);
         if (started != nullptr) known_.emplace_back(started->actor);
-        if ((started != nullptr && started->actor == name) ||
+        begun = begun || started != nullptr;
+        const bool leads_there = (ended != nullptr && ended->target == name) ||
+                                 (raised != nullptr && raised->target == name);
+        if ((!begun && leads_there) || (started != nullptr && started->actor == name) ||
             (ended != nullptr && ended->actor == name) ||
             (broken != nullptr && broken->actor == name)) {
             line(i);

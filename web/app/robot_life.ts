@@ -5,8 +5,10 @@ import { useEffect, useRef } from 'react';
 import type { Json } from '../protocol/messages';
 import { picksJson, readPicks } from '../core/picks';
 import { plotJson, readPlot } from '../core/plot';
+import { toast } from '../core/window_state';
 import { keepState } from './commands/looks';
 import { usePart, useStudio, useTopic } from './hooks';
+import { text } from './text';
 
 /** What was picked is kept so long after the last change. */
 const kKeepMs = 500;
@@ -15,7 +17,23 @@ const kKeepMs = 500;
 export function RobotLife(): null {
   useKept();
   useStanding();
+  useLostRun();
   return null;
+}
+
+/** The run ends with the server; what it did until then is kept. */
+function useLostRun(): void {
+  const studio = useStudio();
+  useEffect(
+    () =>
+      studio.connection.renewed.on(() => {
+        const isSimulated = studio.topics.get('history', {})?.kind === 'simulated';
+        const { state, t } = studio.topics.get('clock', {}) ?? { state: 'none', t: 0 };
+        if (isSimulated && (state === 'running' || state === 'paused') && t > 0)
+          toast(studio.window, 'warning', text.run.lostRun);
+      }),
+    [studio],
+  );
 }
 
 function useKept(): void {

@@ -3,6 +3,9 @@
 
 const s = (count: number, one: string, many: string) => `${count} ${count === 1 ? one : many}`;
 
+/** A page that has told no name is called so by the server. */
+const named = (name: string) => (name === 'a page' ? '' : name);
+
 export const text = {
   name: 'Vagus Studio',
   start: {
@@ -267,6 +270,8 @@ export const text = {
           'find',
           'tidy',
           'all',
+          'add',
+          'paste',
           'note',
           'variable',
           'exportSvg',
@@ -343,6 +348,8 @@ export const text = {
   },
   run: {
     none: 'Stopped',
+    lostRun:
+      'The studio was started again, and the run ended with it. What was recorded is in the timeline: Open a run before this one.',
     running: 'Running',
     paused: 'Paused',
     ended: 'Ended',
@@ -446,10 +453,13 @@ export const text = {
     },
   },
   driver: {
-    looks: (name: string) => `View only: ${name || 'another page'} has control.`,
+    looks: (name: string) => `View only: ${named(name) || 'another page'} has control.`,
     nobody: 'View only: nobody has control.',
     ask: 'Request control',
-    asked: (name: string) => `${name || 'Another page'} requests control.`,
+    waits: (name: string) =>
+      `View only: control is requested of ${named(name) || 'the other page'}, which has 10 s to answer.`,
+    refused: (name: string) => `View only: ${named(name) || 'the other page'} keeps control.`,
+    asked: (name: string) => `${named(name) || 'Another page'} requests control.`,
     give: 'Release control',
     keep: 'Keep control',
   },

@@ -126,6 +126,27 @@ for (const by of ['mouse', 'keyboard'])
     }
   });
 
+test('after a click in the tree F2 and Delete mean the file', example, async (studio) => {
+  const { page, press, type, button } = studio;
+  await studio.layout('Draw');
+  const actor = page.getByRole('group', { name: /^followWall, actor/ });
+  await actor.click();
+  await studio.tab('Project').click();
+  const row = page.getByRole('treeitem', { name: 'WallFollow.plan' });
+  await row.click();
+  await press('Delete');
+  await seen(button('Cancel'));
+  await press('Escape');
+  await seen(actor);
+  await row.click();
+  await press('F2');
+  await focused(page.getByRole('textbox', { name: 'Rename' }));
+  await type('Walls');
+  // Elsewhere is as good as Enter.
+  await studio.tab('Palette').click();
+  await seen(studio.tab(/^Walls\.plan/));
+});
+
 test(
   'Ctrl+K over an open menu leaves the keyboard alive',
   example,

@@ -71,6 +71,28 @@ test('what is typed while the server is started again is there afterwards', two,
   studio.complaints.length = 0;
 });
 
+test(
+  'a run that ended with the server is told, and is there to be opened',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, button } = studio;
+    await studio.layout('Draw');
+    await press('F5');
+    await seen(button(/Running: WallFollow/));
+    await until('it has begun', async () => {
+      const time = await page.locator('.clock__time').innerText();
+      return parseFloat(time) > 0.5;
+    });
+    await restarted(studio);
+    await seen(page.getByText(/the run ended with it/));
+    await studio.tab('Timeline').click();
+    await button('Open a run before this one').click();
+    await page.getByRole('menuitem', { name: /^Run \d+, until/ }).click();
+    await seen(page.locator('.pactive').getByText('searchFirstWall').first());
+    studio.complaints.length = 0;
+  },
+);
+
 test('a link that is frozen says so, and what was typed goes on', two, async (studio) => {
   const { child } = studio.server.program;
   await typeAtEnd(studio, 'left', '# one\n');

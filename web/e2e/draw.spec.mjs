@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { boxOf, gone, reads, seen, test, until } from './support/studio.mjs';
+import { boxOf, focused, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Locator, Page, TestContext } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
@@ -196,6 +196,24 @@ test('a plan is drawn and corrected with keys alone', empty, async (studio) => {
     return actors.wait?.in?.seconds === '1 + 1' && actors.wait.states?.Done === '@terminate';
   });
 });
+
+test(
+  'the menu of the empty canvas adds an element',
+  wall,
+  async ({ page, layout, type, press }) => {
+    await layout('Script');
+    await page.getByRole('treeitem', { name: /WallFollow/ }).click();
+    const canvas = page.getByRole('region', { name: 'Plan WallFollow, drawn' });
+    await seen(canvas);
+    const { x, y, height } = await boxOf(canvas);
+    await page.mouse.click(x + 12, y + height - 12, { button: 'right' });
+    await page.getByRole('menuitem', { name: /add an element/ }).click();
+    await focused(page.getByRole('searchbox', { name: /Search \d+ templates/ }));
+    await type('Writes a line');
+    await press('Enter');
+    await seen(element(page, 'log, actor Log'));
+  },
+);
 
 test('supervisors, variables and findings: added, marked, deleted', empty, async (studio) => {
   const { page, layout, press, button } = studio;

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { gone, seen, test, until } from './support/studio.mjs';
+import { focused, gone, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const json = (/** @type {any} */ value) => `${JSON.stringify(value, null, 2)}\n`;
@@ -105,12 +105,14 @@ test('what cannot be a sub-plan says why', project, async (studio) => {
 });
 
 test('an arrow dropped on nothing makes what it shall lead to', project, async (studio) => {
-  const { page, layout, press } = studio;
+  const { page, layout, press, type } = studio;
   await layout('Draw');
   const port = element(page, 'say, actor').getByRole('button', { name: /^Done leads to rise/ });
   await port.focus();
   await press('Enter');
-  await page.getByRole('textbox', { name: 'Actor or template' }).fill('WaitFor');
+  // What is typed narrows the list: the field has the keyboard.
+  await focused(page.getByRole('textbox', { name: 'Actor or template' }));
+  await type('WaitFor');
   await press('Enter');
   await seen(element(page, 'waitForever, actor WaitForever'));
   await page

@@ -1,7 +1,7 @@
 // A tablet: what a finger does where a mouse would do it.
 import assert from 'node:assert/strict';
 import { makeProject, twoNodes } from './support/robots.mjs';
-import { boxOf, gone, seen, test, until } from './support/studio.mjs';
+import { boxOf, focused, gone, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const tablet = { width: 1180, height: 820, touch: true };
@@ -128,5 +128,37 @@ test(
     await button('Run').first().tap();
     await seen(button(/Running/));
     await seen(page.locator('.pactive').getByText('searchFirstWall'));
+  },
+);
+
+test(
+  'a plan is made from nothing: named, its actors carried by a finger',
+  { width: 1024, height: 768, touch: true },
+  async ({ page, button, type }) => {
+    await button(/^New/).tap();
+    await page.getByRole('combobox', { name: 'Robot' }).selectOption('Carbot');
+    await button('Create').tap();
+    await page.getByRole('radio', { name: 'Draw' }).tap();
+    // There is none yet: where actors are offered, a plan is, too.
+    await button('New plan').tap();
+    await focused(page.getByRole('textbox', { name: 'Name of the new file' }));
+    await type('Patrol');
+    // The name is kept by going elsewhere.
+    await page.getByRole('tab', { name: 'Palette' }).tap();
+    const canvas = page.getByRole('region', { name: 'Plan Patrol, drawn' });
+    await seen(canvas);
+    const tool = await boxOf(button('Log, actor'));
+    const { x, y, width } = await boxOf(canvas);
+    const from = { x: tool.x + 40, y: tool.y + tool.height / 2 };
+    const end = { x: x + width / 2, y: y + 60 };
+    const between = [1, 2, 3].map((step) => ({
+      x: from.x + ((end.x - from.x) * step) / 4,
+      y: from.y + ((end.y - from.y) * step) / 4,
+    }));
+    await swipe(page, [from, ...between, end]);
+    const log = page.getByRole('group', { name: /^log, actor Log/ });
+    await seen(log);
+    const at = await boxOf(log);
+    assert.ok(Math.abs(at.x + at.width / 2 - end.x) < 16, 'it is where the finger left it');
   },
 );

@@ -40,6 +40,17 @@ function replayed(/** @type {string} */ folder) {
   return execFileSync(vagusProgram, ['replay', largest], { encoding: 'utf8' });
 }
 
+/** The way back to now is a button of its own colour, and nothing at the top is cut off. */
+async function lookingBackIsSeen(/** @type {Studio} */ { page, button }) {
+  const colours = [button('Back to now'), button(/^To the step of the plan before/)].map((one) =>
+    one.evaluate((is) => getComputedStyle(is).backgroundColor),
+  );
+  const [back, step] = await Promise.all(colours);
+  assert.notEqual(back, step);
+  const top = page.locator('header.topbar');
+  assert.ok(await top.evaluate((is) => is.scrollWidth <= is.clientWidth), 'the top is cut off');
+}
+
 test('the robot bumped: why, back to that instant, and its line', wall, async (studio) => {
   const { page, press, type, server } = studio;
   // At 80 s a plank falls before the robot, at 82.5 s it bumps into it and is about to back up.
@@ -50,6 +61,10 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   await press('Shift+N', 'w');
   const wheels = await answered(page, /^Why do the wheels of carbot turn as they do\? now/);
   assert.match(wheels[0] ?? '', /the script of drive called drive\./);
+  // By the button below the drawing; the run is paused at the instant at which the actor begins.
+  await studio.button('Why findWallAngle?').click();
+  const begun = await answered(page, /^Why is findWallAngle active, or why did it end\?/);
+  assert.match(begun[0] ?? '', /the actor backupCollision ended with ForwardSuccessful/);
   // By the menu of the drawing: the actor that backed up. Its chain ends at what fell there.
   await page.getByRole('group', { name: /^backupCollision, actor/ }).click({ button: 'right' });
   await page.getByRole('menuitem', { name: 'Why?' }).click();
@@ -64,6 +79,7 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   for (let at = 0; at < raised; ++at) await press('ArrowDown');
   await press('Enter');
   await reads(bar(page), /Everything shows 82\.4\d\d s/);
+  await lookingBackIsSeen(studio);
   // The line of the script that told it.
   const emitted = links(page).filter({ hasText: 'the script of bumper emitted touch.pressed' });
   await reads(emitted, /carbot\.aesl:\d+/);

@@ -84,6 +84,8 @@ test('the mouse drags the robot, its form presses its buttons', thymio, async (s
   await page.mouse.move(to.x, to.y, { steps: 4 });
   await page.mouse.up();
   await stands('thymio', 1.35, 0.7, 0.02);
+  await form.getByRole('button', { name: /^Why do its wheels turn like this/ }).click();
+  await seen(page.getByRole('heading', { name: /^Why do the wheels of thymio turn/ }));
 });
 
 test('in 3D', thymio, async (studio) => {

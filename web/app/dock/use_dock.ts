@@ -63,7 +63,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   // The other layouts are places of work: what is missing is made there.
   const lacks = layout === 'Present' ? lacking : '';
   const key = keyOf(layout, small) + lacks;
-  const [model, setModel] = useState<Model | null>(null);
+  const [made, setMade] = useState<{ model: Model; key: string } | null>(null);
   const extent = useRef<Extent>({ width: 0, height: 0 });
   const before = useRef<Opened | null>(null);
   const closed = useRef(new Set<Doc>());
@@ -81,14 +81,17 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     }
     before.current = opened;
     notePlan(studio, next);
-    setModel(next);
+    setMade({ model: next, key });
   }, [studio, layout, small, lacks, key, nonce, ready, frameRef]);
 
+  const model = made?.model ?? null;
   useFit(frameRef, model, extent);
-  useReveal(studio, model);
+  // What is to be shown waits for the model of a layout that was just chosen.
+  useReveal(studio, made?.key === key ? made.model : null);
   usePausedPlan(model);
   useNames(studio, model);
-  const keep = useKeep(studio, key);
+  // The model of the layout before may still change, and is kept as that.
+  const keep = useKeep(studio, made?.key ?? key);
   const changed = useCallback(
     (changedModel: Model, action: Action) => {
       noteClosed(closed.current, action);

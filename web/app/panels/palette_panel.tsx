@@ -3,7 +3,9 @@ import { useState, type KeyboardEvent } from 'react';
 import { matching, usable } from '../../core/plan/templates';
 import { useDrives, useStudio, useTopic } from '../hooks';
 import { Quiet } from '../parts/blank';
+import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
+import { text } from '../text';
 import { words } from './palette/words';
 import { planDeskOf, usePlanDesk } from '../views/plan/plan_desk';
 import { NewTemplateButton } from './palette/new_template_button';
@@ -67,7 +69,21 @@ export default function PalettePanel() {
         ) : null}
         {typed === '' ? <NewTemplateButton /> : null}
       </div>
-      {shown ? null : <Quiet>{words.noPlan}</Quiet>}
+      {shown ? null : <NoPlan />}
+    </div>
+  );
+}
+
+/** Nothing can be added yet: a plan is opened, or made here. */
+function NoPlan() {
+  const { registry } = useStudio();
+  const drives = useDrives();
+  return (
+    <div className="palettepanel__none">
+      <Quiet>{words.noPlan}</Quiet>
+      <Button small disabled={!drives} onClick={() => void registry.run('file.new.plan')}>
+        {text.commands['file.new.plan']}
+      </Button>
     </div>
   );
 }

@@ -4,14 +4,15 @@ import { useStudio } from '../hooks';
 import { Kbd } from './kbd';
 import { kStaysInWindow, useOpened } from './use_opened';
 
-/** A menu in the look of the studio. */
+/** A menu in the look of the studio. hasField: a field in it has the focus first, to narrow the items. */
 export function StudioMenu({
   button,
   children,
   opened,
   onChange,
+  hasField = false,
   ...rest
-}: { button: ReactNode; children: ReactNode } & Partial<MenuProps>) {
+}: { button: ReactNode; children: ReactNode; hasField?: boolean } & Partial<MenuProps>) {
   const open = useOpened({ opened, onChange });
   return (
     <Menu
@@ -33,7 +34,7 @@ export function StudioMenu({
     >
       <Menu.Target>{button as React.ReactElement}</Menu.Target>
       <Menu.Dropdown onKeyDown={open.onKeyDown}>
-        <Items>{children}</Items>
+        <Items hasField={hasField}>{children}</Items>
       </Menu.Dropdown>
     </Menu>
   );
@@ -43,12 +44,12 @@ export function StudioMenu({
  * Has the focus until a key chooses an item. The library has an element of its own for that, between the items,
  * with no role that a menu may contain.
  */
-function Items({ children }: { children: ReactNode }) {
+function Items({ children, hasField }: { children: ReactNode; hasField: boolean }) {
   return (
     <div
       role="group"
       tabIndex={-1}
-      data-autofocus
+      data-autofocus={hasField ? undefined : true}
       data-mantine-stop-propagation="true"
       className="menu__items"
     >

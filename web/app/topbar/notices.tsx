@@ -1,5 +1,6 @@
 import { IconAlertTriangle, IconEye, IconHistory, IconPlugConnectedX } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
+import type { Topics } from '../../protocol/messages';
 import { useLink, useStudio, useTopic, usePart } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
@@ -59,18 +60,23 @@ function DriverNotice() {
   const studio = useStudio();
   const state = useTopic('studio', {});
   const link = useLink();
+  const request = useRequest(state, link.state === 'open' ? link.number : null);
   const icon = <IconEye className="icon" size={14} stroke={kStroke} aria-hidden />;
   if (link.state !== 'open' || !state) return null;
   if (state.driver !== link.number) {
     const may = link.role === 'drive';
     const end = may ? (
-      <Button small onClick={() => studio.registry.run('driver.ask')}>
+      <Button
+        small
+        disabled={request === 'waits'}
+        onClick={() => void studio.registry.run('driver.ask')}
+      >
         {text.driver.ask}
       </Button>
     ) : null;
     return (
       <Notice icon={icon} end={end}>
-        {state.driver === 0 ? text.driver.nobody : text.driver.looks(state.driver_name)}
+        {state.driver === 0 ? text.driver.nobody : text.driver[request](state.driver_name)}
       </Notice>
     );
   }
@@ -91,6 +97,22 @@ function DriverNotice() {
       {text.driver.asked(state.asked.name)}
     </Notice>
   );
+}
+
+/** What became of this page's own request for control, as long as the same page has it. */
+function useRequest(
+  state: Topics['studio']['is'] | undefined,
+  own: number | null,
+): 'looks' | 'waits' | 'refused' {
+  const waits = own !== null && state?.asked?.client === own;
+  const [waited, setWaited] = useState(waits);
+  const [refusedBy, setRefusedBy] = useState<number | null>(null);
+  if (waited !== waits) {
+    setWaited(waits);
+    setRefusedBy(waits ? null : (state?.driver ?? null));
+  }
+  if (waits) return 'waits';
+  return refusedBy !== null && refusedBy === state?.driver ? 'refused' : 'looks';
 }
 
 /** What was typed before a crash is back; said until it has been seen. */

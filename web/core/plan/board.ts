@@ -19,7 +19,15 @@ import {
 import { extract, type Extracted, type WhyNot } from './extract';
 import * as notes from './notes';
 import { Draft, paste, partOf, type Part } from './part';
-import { found, freePlace, freePlaceIn, sceneOf, type Places, type Scene } from './place';
+import {
+  dropPlace,
+  found,
+  freePlace,
+  freePlaceIn,
+  sceneOf,
+  type Places,
+  type Scene,
+} from './place';
 import { kNodeWidth, type Box, type Point } from './shape';
 import type { SubPlans } from './sub_plans';
 import type { Found, Toolboxes } from './templates';
@@ -252,6 +260,12 @@ export class PlanBoard {
   /** room: what is seen of the plan; the actor is put there if it has a place. */
   addActor(found: Found, wanted: Point, room?: Box): string {
     const at = room ? freePlaceIn(room, this.scene, wanted) : freePlace(this.scene, wanted);
+    return this.added(edit.addActor(this.file.value, this.model, found, at), (name) => name);
+  }
+
+  /** room: what is seen of the plan. */
+  dropActor(found: Found, wanted: Point, room: Box): string {
+    const at = dropPlace(room, this.scene, wanted);
     return this.added(edit.addActor(this.file.value, this.model, found, at), (name) => name);
   }
 

@@ -222,6 +222,12 @@ export function freePlaceIn(room: Box, scene: Scene, wanted: Point): Point {
   return places.find(isIn) ?? nearestIn(room, scene, wanted) ?? freePlace(scene, wanted);
 }
 
+/** Where an element was dropped; where it would cover something there, the nearest place in sight. */
+export function dropPlace(room: Box, scene: Scene, wanted: Point): Point {
+  const below = freePlace(scene, wanted);
+  return below.y === snapped(wanted.y) ? below : (nearestIn(room, scene, wanted) ?? below);
+}
+
 const kGrid = 3 * kSnap;
 
 function nearestIn(room: Box, scene: Scene, wanted: Point): Point | undefined {

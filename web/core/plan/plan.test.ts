@@ -5,7 +5,7 @@ import { drawingOf, goOn, type Drawing } from './arrows';
 import { dataArrows, namesIn } from './data';
 import { planModel, supervisorsOf } from './model';
 import { crossings, eachStretch, roundedPath } from './path';
-import { freePlace, freePlaceIn, sceneOf, type Scene } from './place';
+import { dropPlace, freePlace, freePlaceIn, sceneOf, type Scene } from './place';
 import { seeded } from '../test_seeded';
 import { kApart } from './route';
 import type { Point } from './shape';
@@ -148,6 +148,13 @@ describe('places', () => {
     // Below the block that ends at 296, and the sub-plan from 344 to 458; 506 is no multiple of 8.
     expect(freePlace(scene, { x: 83, y: 165 })).toEqual({ x: 80, y: 504 });
     expect(freePlace(scene, { x: 1003, y: 5 })).toEqual({ x: 1000, y: 8 });
+  });
+
+  it('of what is dropped are where it was dropped, or next to that', () => {
+    const room = { x: 0, y: 0, width: 700, height: 400 };
+    expect(dropPlace(room, scene, { x: 403, y: 165 })).toEqual({ x: 400, y: 168 });
+    // Over the block from 80 to 248: 24 behind it is 272, and the next of every 24 is 288.
+    expect(dropPlace(room, scene, { x: 200, y: 168 })).toEqual({ x: 288, y: 168 });
   });
 
   it('of what is added are in sight where there is room', () => {

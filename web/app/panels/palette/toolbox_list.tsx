@@ -6,6 +6,7 @@ import type { Studio } from '../../../core/studio';
 import { toast } from '../../../core/window_state';
 import { useChanges, useStudio, useTopic } from '../../hooks';
 import { drawWords } from '../../views/plan/words';
+import { Carried, useCarried } from './carried';
 import { words } from './words';
 import { RoleShape, TemplateIcon } from '../../views/plan/canvas/template_icon';
 import { planDeskOf, usePlanDesk } from '../../views/plan/plan_desk';
@@ -45,6 +46,7 @@ function Tool(props: { toolbox: string; template: PlanTemplate; may: boolean }) 
   const studio = useStudio();
   const hider = useHiddenBy(studio, toolbox, template);
   const can = may && hider === null;
+  const { at, hands } = useCarried(dragged(toolbox, template), can);
   return (
     <button
       type="button"
@@ -58,10 +60,12 @@ function Tool(props: { toolbox: string; template: PlanTemplate; may: boolean }) 
         event.dataTransfer.effectAllowed = 'copy';
       }}
       onClick={() => addTemplate(studio, { toolbox, template })}
+      {...hands}
     >
       <TemplateIcon icon={template.icon} />
       <span className="ellipsis grow">{template.name}</span>
       <RoleShape kind={template.kind} label={drawWords.roles[template.kind]} />
+      {at ? <Carried at={at} name={template.name} /> : null}
     </button>
   );
 }

@@ -5,7 +5,7 @@ import { counted } from '../../text';
 export const words = {
   search: (count: number) => `Search ${counted(count, 'template', 'templates')}`,
   none: (typed: string) => `No template has “${typed}” in its name or help.`,
-  noPlan: 'Open a plan to add to it.',
+  noPlan: 'Open a plan to add to it, or create one.',
   add: (name: string, role: string) => `${name}, ${role}`,
   hidden: (name: string, by: string, toolbox: string) =>
     `This plan would use the ${name} of ${by}, which it lists first. List ${toolbox} before it to use this one.`,

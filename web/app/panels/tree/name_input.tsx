@@ -30,7 +30,8 @@ export function NameInput({
   rename?: Path;
 }) {
   const studio = useStudio();
-  const [name, setName] = useState(rename ? baseName(rename) : `new${endings[kind]}`);
+  const given = rename ? baseName(rename) : `new${endings[kind]}`;
+  const [name, setName] = useState(given);
   const why = badName(name);
   const field = useRef<HTMLInputElement>(null);
   // The panel may be behind another tab until that tab is in front.
@@ -40,8 +41,12 @@ export function NameInput({
       return !field.current || document.activeElement === field.current;
     });
   }, []);
-  const end = () => update(studio.window, (draft) => void (draft.naming = null));
-  const done = async () => {
+  const ended = useRef(false);
+  const end = () => {
+    ended.current = true;
+    update(studio.window, (draft) => void (draft.naming = null));
+  };
+  const done = async (takes: 'focus' | 'nothing') => {
     if (why) return;
     end();
     const path = joinPath(rename ? folderOf(rename) : folder, name);
@@ -50,15 +55,23 @@ export function NameInput({
     await studio.send('file.new', { path, kind });
     if (kind === 'folder') return;
     // If the next file is being named already, its field keeps the focus.
-    const free = studio.window.getState().naming === null;
+    const free = takes === 'focus' && studio.window.getState().naming === null;
     revealDoc(studio.window, documentsIn(studio, path)[0] ?? path, null, free);
+  };
+  const tryDone = (takes: 'focus' | 'nothing') =>
+    done(takes).catch((problem: unknown) => studio.tell(problem));
+  // Who goes elsewhere keeps what was typed, if it is a name; a tablet may have no Enter at hand.
+  const leave = () => {
+    if (ended.current) return;
+    if (name === given || why) end();
+    else void tryDone('nothing');
   };
   return (
     <form
       className="tree__name"
       onSubmit={(event) => {
         event.preventDefault();
-        done().catch((problem: unknown) => studio.tell(problem));
+        void tryDone('focus');
       }}
     >
       <FileIcon kind={rename ? iconKind(rename) : kind} />
@@ -73,7 +86,7 @@ export function NameInput({
         onChange={(event) => setName(event.target.value)}
         onFocus={(event) => event.target.setSelectionRange(0, stem(event.target.value))}
         // A window that another one covers keeps its field.
-        onBlur={(event) => document.activeElement !== event.target && end()}
+        onBlur={(event) => document.activeElement !== event.target && leave()}
         onKeyDown={(event) => event.key === 'Escape' && (event.stopPropagation(), end())}
       />
     </form>

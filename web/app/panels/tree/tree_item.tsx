@@ -1,6 +1,6 @@
 import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
 import { useState } from 'react';
-import { partOf, shownName } from '../../../core/paths';
+import { isRecording, isTrace, partOf, shownName } from '../../../core/paths';
 import type { TreeRow } from '../../../core/tree';
 import { useDrives, useTopic, useWindow } from '../../hooks';
 import { FileIcon, kStroke } from '../../parts/icons';
@@ -52,7 +52,9 @@ export function TreeItem({ row, tree, tabbed, onKey }: Props) {
       aria-selected={shown}
       tabIndex={tabbed ? 0 : -1}
       onFocus={() => tree.choose(row.path)}
-      onClick={() => tree.open(row)}
+      // F2 and Delete after a click mean the file, not what is chosen in it.
+      onClick={() => tree.show(row)}
+      onDoubleClick={() => hasText(row) && tree.open(row)}
       onContextMenu={(event) => (event.preventDefault(), setMenu(true))}
       onKeyDown={press}
     >
@@ -64,6 +66,11 @@ export function TreeItem({ row, tree, tabbed, onKey }: Props) {
       <TreeMenu row={row} tree={tree} open={menu} onChange={setMenu} />
     </li>
   );
+}
+
+/** What a second click does not open again, or close. */
+function hasText({ kind, path }: TreeRow): boolean {
+  return kind !== 'folder' && !isRecording(path) && !isTrace(path);
 }
 
 function Chevron({ open }: { open: boolean }) {

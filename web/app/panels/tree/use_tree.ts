@@ -5,6 +5,7 @@ import type { Path } from '../../../protocol/messages';
 import { openRecording, openTrace } from '../../commands/past_commands';
 import { documentsIn } from '../../documents';
 import { folderOf, isRecording, isTrace } from '../../../core/paths';
+import type { Studio } from '../../../core/studio';
 import type { TreeRow } from '../../../core/tree';
 import { revealDoc, toast, update } from '../../../core/window_state';
 import { useStudio } from '../../hooks';
@@ -19,6 +20,8 @@ export interface TreeState {
   /** Where something new goes: the chosen folder, or the one of the chosen file. */
   folder(rows: readonly TreeRow[]): Path;
   open(row: TreeRow): void;
+  /** Shows a document; the keyboard stays in the tree. */
+  show(row: TreeRow): void;
   openText(row: TreeRow): void;
   rename(row: TreeRow): void;
   /** The file that is to be deleted, once that is confirmed. */
@@ -43,6 +46,7 @@ export function useTree(): TreeState {
   }, []);
   return useMemo(
     () => ({
+      ...openings(studio, toggle),
       closed,
       chosen,
       choose,
@@ -57,13 +61,6 @@ export function useTree(): TreeState {
             : folderOf(row.path)
           : folderOf(outermost(rows)?.path ?? '');
       },
-      open: (row) => {
-        if (row.kind === 'folder') return toggle(row.path, !row.open);
-        if (isRecording(row.path)) return void openRecording(studio, row.path);
-        if (isTrace(row.path)) return void openTrace(studio, row.path);
-        for (const doc of documentsIn(studio, row.path).reverse())
-          revealDoc(studio.window, doc, null);
-      },
       openText: (row) => revealDoc(studio.window, row.path, null),
       rename: (row) => update(studio.window, (draft) => void (draft.naming = { rename: row.path })),
       asked,
@@ -77,6 +74,17 @@ export function useTree(): TreeState {
     }),
     [studio, closed, chosen, asked, toggle],
   );
+}
+
+function openings(studio: Studio, toggle: TreeState['toggle']): Pick<TreeState, 'open' | 'show'> {
+  const open = (row: TreeRow, takesFocus: boolean) => {
+    if (row.kind === 'folder') return toggle(row.path, !row.open);
+    if (isRecording(row.path)) return void openRecording(studio, row.path);
+    if (isTrace(row.path)) return void openTrace(studio, row.path);
+    for (const doc of documentsIn(studio, row.path).reverse())
+      revealDoc(studio.window, doc, null, takesFocus);
+  };
+  return { open: (row) => open(row, true), show: (row) => open(row, false) };
 }
 
 /** Of the project that is open: those of projects inside of it lie deeper. */

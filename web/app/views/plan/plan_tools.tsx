@@ -3,6 +3,7 @@ import {
   IconArrowForwardUp,
   IconChevronRight,
   IconLayoutDistributeVertical,
+  IconPlus,
 } from '@tabler/icons-react';
 import { useCallback, useEffect, useReducer, useSyncExternalStore } from 'react';
 import type { Doc } from '../../../protocol/messages';
@@ -48,6 +49,16 @@ export function PlanTools({ doc }: { doc: Doc }) {
         icon={<IconArrowForwardUp {...size} />}
         onClick={() => void studio.registry.run('draw.redo')}
       />
+      <Button
+        kind="plain"
+        small
+        disabled={!drives || !file}
+        tip={`${text.commands['draw.add']}  (A)`}
+        icon={<IconPlus {...size} />}
+        onClick={() => void studio.registry.run('draw.add')}
+      >
+        {words.add}
+      </Button>
       <ExportMenu />
       <CompareMenu doc={doc} />
       <Button

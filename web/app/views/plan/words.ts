@@ -107,6 +107,7 @@ export const drawWords = {
   tidyTooLong:
     'Placing so many elements takes too long. Choose fewer of them, or none to place all in columns.',
   tidy: 'Tidy',
+  add: 'Add',
   zoom: (percent: number) => `Zoom: ${percent} %`,
   zoomTo: 'Zoom to 100 %',
   newTarget: 'New actor',

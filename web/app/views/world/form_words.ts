@@ -3,6 +3,7 @@
 export const formWords = {
   inRun: 'in this run',
   follow: 'Follow',
+  whyWheels: 'Why do its wheels turn like this?',
   kind: 'Kind',
   type: 'Robot',
   width: 'Width',

@@ -3,7 +3,8 @@ import { radians, shownDegrees, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { isLamp, type Thing } from '../../../core/world/stage';
 import { useEffect, useState } from 'react';
-import { useTopic } from '../../hooks';
+import { askWhy } from '../../commands/ask_why';
+import { usePart, useStudio, useTopic } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -65,6 +66,7 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
             onSet={(on) => model.follow(on ? thing.key : null)}
           />
           <PressButtons robot={thing.name} />
+          <WhyWheels robot={thing.name} />
         </>
       ) : (
         <>
@@ -77,6 +79,19 @@ export function LiveForm({ model, thing }: { model: WorldModel; thing: Thing }) 
         </>
       )}
     </>
+  );
+}
+
+/** The same as W, for those who do not know the key. */
+function WhyWheels({ robot }: { robot: string }) {
+  const studio = useStudio();
+  const hasRun = usePart('history', {}, (is) => (is?.to ?? 0) > (is?.from ?? 0));
+  return (
+    <div className="prop__end">
+      <Button small keys="W" disabled={!hasRun} onClick={() => void askWhy(studio, 'motor', robot)}>
+        {formWords.whyWheels}
+      </Button>
+    </div>
   );
 }
 

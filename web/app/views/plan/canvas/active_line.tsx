@@ -1,6 +1,11 @@
 import { aheadText, inputsAhead } from '../../../../core/plan/ahead';
 import type { PlanBoard } from '../../../../core/plan/board';
+import { askWhy } from '../../../commands/ask_why';
+import { useStudio } from '../../../hooks';
+import { Button } from '../../../parts/button';
+import { text } from '../../../text';
 import { useBoard } from '../plan_desk';
+import { useTriedPlan } from '../try/use_trying';
 import { drawWords } from '../words';
 import { useLive } from './live_store';
 
@@ -13,6 +18,8 @@ export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: 
   const inputs = useLive((live) => live.inputs);
   const values = useLive((live) => live.values);
   const { model } = useBoard(board);
+  const studio = useStudio();
+  const isTried = useTriedPlan() !== null;
   if (actor === '') return null;
   const element = model.actors.find((one) => one.name === actor);
   const known = element?.known?.inputs ?? [];
@@ -35,6 +42,12 @@ export function ActiveLine({ board, onShow }: { board: PlanBoard; onShow: (key: 
               .join(' · ')
           : aheadText(inputsAhead(element), values)}
       </span>
+      <span className="grow" />
+      {isTried ? null : (
+        <Button kind="plain" small onClick={() => void askWhy(studio, 'actor', actor)}>
+          {text.why.row(actor)}
+        </Button>
+      )}
     </footer>
   );
 }

@@ -70,7 +70,7 @@ export function chooseOnly(board: PlanBoard, key: string, event: React.MouseEven
 }
 
 /** What is seen of the plan. */
-function roomOf(flow: ReturnType<typeof useReactFlow>, frame: HTMLElement): Box {
+export function roomOf(flow: ReturnType<typeof useReactFlow>, frame: HTMLElement): Box {
   const { left, top, right, bottom } = frame.getBoundingClientRect();
   const first = flow.screenToFlowPosition({ x: left, y: top });
   const last = flow.screenToFlowPosition({ x: right, y: bottom });

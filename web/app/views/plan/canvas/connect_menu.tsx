@@ -40,6 +40,7 @@ export function ConnectMenu(props: {
   return (
     <StudioMenu
       opened
+      hasField
       onClose={() => {
         onClose();
         if (asked.beside instanceof HTMLElement) asked.beside.focus();

@@ -15,7 +15,10 @@ const editing = [
   'draw.remove',
 ];
 
-/** What can be done with the element under the pointer, or the one that has the keyboard. */
+const anywhere = ['draw.add', 'draw.note', 'draw.variable', 'draw.paste'];
+const whole = ['draw.all', 'draw.tidy', 'draw.fit'];
+
+/** What can be done with the element under the pointer, or the one that has the keyboard; or with the plan. */
 export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }) {
   return (
     <StudioMenu
@@ -27,16 +30,29 @@ export function ElementMenu({ at, onClose }: { at: MenuAt; onClose: () => void }
       }}
       button={<span className="pasked" style={{ left: at.x, top: at.y }} />}
     >
-      <CommandItem id="draw.why" title={text.why.menu} />
-      <CommandItem id="draw.runFrom" title={planWords.from.menu} />
-      <Menu.Label>{drawWords.debugging}</Menu.Label>
-      {debugging.map((id) => (
-        <CommandItem key={id} id={id} />
-      ))}
-      <Menu.Divider />
-      {editing.map((id) => (
-        <CommandItem key={id} id={id} />
-      ))}
+      {at.of === 'element' ? <OfElement /> : <OfCanvas />}
     </StudioMenu>
   );
 }
+
+const OfElement = () => (
+  <>
+    <CommandItem id="draw.why" title={text.why.menu} />
+    <CommandItem id="draw.runFrom" title={planWords.from.menu} />
+    <Menu.Label>{drawWords.debugging}</Menu.Label>
+    <Commands ids={debugging} />
+    <Menu.Divider />
+    <Commands ids={editing} />
+  </>
+);
+
+const OfCanvas = () => (
+  <>
+    <Commands ids={anywhere} />
+    <Menu.Divider />
+    <Commands ids={whole} />
+  </>
+);
+
+const Commands = ({ ids }: { ids: readonly string[] }) =>
+  ids.map((id) => <CommandItem key={id} id={id} />);

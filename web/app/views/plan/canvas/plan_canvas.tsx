@@ -62,7 +62,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const clipboard = useClipboard(useStudio(), shown, drives);
   const { connect, asked, close } = useConnecting(board, drives);
   const dropping = useDropping(board, drives);
-  const { menu, closeMenu, onNodeContextMenu } = useElementMenu(board);
+  const { menu, closeMenu, ...menus } = useElementMenu(board);
   const options = usePlanOptions();
   const tries = useTriedClick(board);
   const onNodesChange = useNodeChanges(board);
@@ -95,7 +95,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           onNodesChange={onNodesChange}
           onMoveStart={(event) => event && worksOn()}
           onNodeClick={(event, { id }) => tries?.(event, id) || chooseOnly(board, id, event)}
-          onNodeContextMenu={onNodeContextMenu}
+          {...menus}
           onPaneClick={() => {
             board.select(null);
             // Keys are for the plan that was clicked.

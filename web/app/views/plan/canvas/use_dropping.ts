@@ -6,6 +6,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { kStart } from '../../../../core/plan/model';
 import { useTopic } from '../../../hooks';
 import { foundIn, kTemplateData } from '../template_drag';
+import { roomOf } from './canvas_hooks';
 
 export function useDropping(board: PlanBoard, drives: boolean) {
   const flow = useReactFlow();
@@ -22,12 +23,13 @@ export function useDropping(board: PlanBoard, drives: boolean) {
         if (!drives || !found) return;
         event.preventDefault();
         // Keys are for the plan that got it.
-        if (event.currentTarget instanceof HTMLElement)
-          event.currentTarget.focus({ preventScroll: true });
+        const frame = event.currentTarget;
+        if (!(frame instanceof HTMLElement)) return;
+        frame.focus({ preventScroll: true });
         const at = { x: event.clientX, y: event.clientY };
         if (found.template.kind !== 'supervisor') {
           const { x, y } = flow.screenToFlowPosition(at);
-          board.addActor(found, { x: x - 84, y: y - 22 });
+          board.dropActor(found, { x: x - 84, y: y - 22 }, roomOf(flow, frame));
           return;
         }
         const under = document.elementFromPoint(at.x, at.y)?.closest('[data-plan-actor]');

@@ -14,6 +14,7 @@
 #include "embed/bus_check.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_bus.hpp"
+#include "embed/world_pace.hpp"
 #include "net/links.hpp"
 #include "run/execution.hpp"
 #include "run/firing.hpp"
@@ -29,9 +30,6 @@ namespace vagus::embed {
 
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr Duration kBehindMax = 200ms;  // a machine that cannot keep up slows time down instead
 constexpr const char* kSomebody = "somebody";  // who ends a run, if nobody says
 constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
 
@@ -45,25 +43,6 @@ Result<LoadedPlan> start_of(const LoadedPlan& what, const std::string& actor) {
     if (started.ok()) return started;
     return Error{Code::BadInput, fmt::format("--from {}: {}", actor, started.error().what)};
 }
-
-// Time that follows the wall clock from the first call on.
-class Pace {
-public:
-    // Those who have joined the bus are served meanwhile.
-    explicit Pace(net::Links& net) : net_(net) {}
-
-    void wait(Time at) {
-        const Time now = net_.now();
-        // The first instant, and one that came much too late: a pause, or too slow a machine.
-        if (!origin_ || now > *origin_ + at + kBehindMax) origin_ = now - at;
-        const Time due = *origin_ + at;
-        while (net_.now() < due) (void)net_.poll(due);
-    }
-
-private:
-    net::Links& net_;
-    std::optional<Duration> origin_;
-};
 
 Result<session::BusNames> names_of_project(const std::string& path) {
     const std::string text = TRY(read_file(path));
@@ -102,6 +81,7 @@ public:
     void abort_this();
     void follow_bus(BusTap* follows);
     void set(int slot, plan::Value value);
+    void hear(run::BusEvent event);
     void reseed(uint64_t with);
     void defer_aborts(bool deferred) { deferred_ = deferred; }
     std::optional<std::string> take_abort();
@@ -301,7 +281,7 @@ void PreparedRun::Insides::trace(const plan::TraceEvent& event) {
 Result<run::Ended> PreparedRun::Insides::run_beside_world() {
     if (world_used) TRY(open_world());
     world_used = true;
-    Pace pace(*hosts);
+    WorldPace pace(*hosts);
     sim::WorldThreads threads(world->session().world(), !words.threads.empty());
     const auto clock = [this] { return hosts->now(); };
     const bool paced = words.clock != "virtual";
@@ -430,6 +410,13 @@ void PreparedRun::Insides::set(int slot, plan::Value value) {
     if (execution_ != nullptr) execution_->set(slot, std::move(value));
 }
 
+void PreparedRun::Insides::hear(run::BusEvent event) {
+    if (world) return world->bring(std::move(event));
+    const std::lock_guard lock(mutex_);
+    run::RealTime* const run = execution_ != nullptr ? execution_->real_time() : nullptr;
+    if (run != nullptr) run->hear(std::move(event));
+}
+
 void PreparedRun::Insides::reseed(uint64_t with) {
     const std::lock_guard lock(mutex_);
     if (execution_ != nullptr) execution_->reseed(with);
@@ -544,6 +531,10 @@ void PreparedRun::abort_this() {
 
 void PreparedRun::set(int slot, plan::Value value) {
     insides_->set(slot, std::move(value));
+}
+
+void PreparedRun::hear(run::BusEvent event) {
+    insides_->hear(std::move(event));
 }
 
 void PreparedRun::reseed(uint64_t seed) {

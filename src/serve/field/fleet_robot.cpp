@@ -62,8 +62,17 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
                                  member.robot, fleet::kNameBytesMax)};
     }
     link.will = fleet::Member(member, now).will();
-    return std::unique_ptr<FleetRobot>(
+    talk::MemberOf asks{.target = to_string(link.target),
+                        .robot = member.robot,
+                        .instance = member.instance,
+                        .ca = options.ca,
+                        .certificate = options.certificate,
+                        .key = options.key,
+                        .login = options.login};
+    std::unique_ptr<FleetRobot> robot(
         new FleetRobot(bench, std::move(member), std::move(link), std::move(talk), now));
+    robot->let_plans_ask(std::move(asks));
+    return robot;
 }
 
 FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
@@ -119,8 +128,16 @@ Result<plan::Value> FleetRobot::read(const plan::WordFormula::Name& name) {
                                              name.shown, word.name, found->second.size())};
 }
 
+// A plan is another process, with a link of its own; what it tells goes over this one.
+void FleetRobot::let_plans_ask(talk::MemberOf member) {
+    bench_.join_fleet(std::move(member), [this](const talk::ToldFleet& told) {
+        member_.changed("plan", told.name, told.values);
+    });
+}
+
 FleetRobot::~FleetRobot() {
     bench_.on_tells({}, {});
+    bench_.join_fleet({}, {});
     member_.leave();
     perform_all();
 }
@@ -151,7 +168,8 @@ void FleetRobot::perform_all() {
 }
 
 void FleetRobot::perform(const fleet::EmitOnBus& event) {
-    const Status sent = bench_.emit(event.event, event.args);
+    const Status sent =
+        bench_.hear_of_fleet({.event = event.event, .from = event.from, .args = event.args});
     if (sent.ok()) return;
     talk_.log("warning", fmt::format("fleet: the event {} of {} could not be passed on: {}",
                                      event.event, event.from, sent.error().what));

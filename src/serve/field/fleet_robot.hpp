@@ -48,6 +48,7 @@ public:
 private:
     FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
                Time now);
+    void let_plans_ask(talk::MemberOf member);
     void perform_all();
     void tell_variables();
     fleet::Answer tell_for_a_minute(const fleet::Command& command);

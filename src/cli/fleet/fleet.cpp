@@ -80,7 +80,7 @@ std::vector<std::string> names_of(FleetSession& session, const FleetCall& call) 
 }
 
 std::string nobody(const FleetSession& session) {
-    return fmt::format("no robot of the fleet \"{}\" is known that this is for", session.fleet());
+    return fmt::format("no robot of the fleet \"{}\" is there", session.fleet());
 }
 
 int list(FleetSession& session, const FleetCall& call) {
@@ -194,7 +194,7 @@ int order(FleetSession& session, const FleetCall& call) {
     session.wait_until([&] { return session.desk().is_over(number); }, wait_of(call));
     std::vector<fleet::Outcome> outcomes = session.desk().outcomes(number);
     std::ranges::sort(outcomes, fleet::counted_before, &fleet::Outcome::robot);
-    if (outcomes.empty()) return complain(nobody(session));
+    if (outcomes.empty()) return complain(nobody(session) + " that this is for");
     const std::string done = command.verb == "stop" ? "stopped" : "done";
     size_t good = 0;
     for (const fleet::Outcome& one : outcomes) {

@@ -146,11 +146,22 @@ bool FleetRobot::is_of(const OpenedProject& project) const {
     return project.fleet == project_;
 }
 
+// One that is started again and again is not shown as running and stopped in turn.
+fleet::Shown FleetRobot::shown() const {
+    fleet::Shown shown = bench_.shown();
+    if (refused_.empty()) return shown;
+    shown.state = "fault";
+    shown.problems.insert(shown.problems.begin(),
+                          std::string(utf8_prefix(refused_, fleet::kLineBytesMax)));
+    if (shown.problems.size() > fleet::kProblemsMax) shown.problems.resize(fleet::kProblemsMax);
+    return shown;
+}
+
 void FleetRobot::tick(Time now) {
     now_ = now;
     for (const fleet::LinkEvent& event : link_.take()) member_.hear(event, now);
     if (tell_list_.forget_old(now)) tell_variables();
-    member_.show(bench_.shown(), now);
+    member_.show(shown(), now);
     member_.tick(now);
     perform_all();
 }

@@ -56,13 +56,13 @@ protected:
 using Texts = std::vector<std::string>;
 const char* const kTake = "vagus/1/lab/robot/r1/ask/take";
 
-// The questions of the keeper's replies, shared values, connections: three filters.
+// The keeper's replies and its sign of life, shared values, connections: four filters.
 TEST_F(RunFleetTest, HearsTheKeeperAtEachConnection) {
     comes(fleet::Connected{});
-    EXPECT_EQ(written_.filters, 3u);
+    EXPECT_EQ(written_.filters, 4u);
     comes(fleet::Lost{"cut"});
     comes(fleet::Connected{});
-    EXPECT_EQ(written_.filters, 6u);
+    EXPECT_EQ(written_.filters, 8u);
 }
 
 TEST_F(RunFleetTest, AsksOnlyWhileTheNameIsThatOfItsMember) {

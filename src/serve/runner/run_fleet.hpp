@@ -5,7 +5,9 @@
 //     const auto fleet = TRY(RunFleet::open(member, order, wall_now));
 //     parts.fleet = fleet.get();
 //     if (fleet->turn()) prepared.hear({std::string(toolbox::kFleetNews), {}});
-//     for (auto& told : fleet->take_told()) teller.tell(talk::ToldFleet{…});
+//     for (const auto& told : fleet->take_told()) {
+//         teller.tell(talk::ToldFleet{told.name, told.values});
+//     }
 #pragma once
 
 #include <cstdint>

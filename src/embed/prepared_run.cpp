@@ -31,8 +31,6 @@ namespace vagus::embed {
 
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr const char* kSomebody = "somebody";  // who ends a run, if nobody says
 constexpr int kExitTraceLost = 1;  // the plan ended well, but not all of its trace is written
 
@@ -84,6 +82,7 @@ public:
     void abort_this();
     void follow_bus(BusTap* follows);
     void set(int slot, plan::Value value);
+    void hear(run::BusEvent event);
     void reseed(uint64_t with);
     void defer_aborts(bool deferred) { deferred_ = deferred; }
     std::optional<std::string> take_abort();
@@ -414,6 +413,13 @@ void PreparedRun::Insides::set(int slot, plan::Value value) {
     if (execution_ != nullptr) execution_->set(slot, std::move(value));
 }
 
+void PreparedRun::Insides::hear(run::BusEvent event) {
+    if (world) return world->bring(std::move(event));
+    const std::lock_guard lock(mutex_);
+    run::RealTime* const run = execution_ != nullptr ? execution_->real_time() : nullptr;
+    if (run != nullptr) run->hear(std::move(event));
+}
+
 void PreparedRun::Insides::reseed(uint64_t with) {
     const std::lock_guard lock(mutex_);
     if (execution_ != nullptr) execution_->reseed(with);
@@ -528,6 +534,10 @@ void PreparedRun::abort_this() {
 
 void PreparedRun::set(int slot, plan::Value value) {
     insides_->set(slot, std::move(value));
+}
+
+void PreparedRun::hear(run::BusEvent event) {
+    insides_->hear(std::move(event));
 }
 
 void PreparedRun::reseed(uint64_t seed) {

@@ -110,6 +110,9 @@ public:
     // While it runs, on the deciding thread: writes a variable of the outermost plan from outside,
     // as soon as what is being decided is done (P29).
     void set(int slot, plan::Value value);
+    // While it runs: the plan hears what is no event of the bus. Beside a world on the deciding
+    // thread, on a bus from any.
+    void hear(run::BusEvent event);
     // While it runs in virtual time, on the deciding thread: from now on what is random in the code
     // of actors is drawn from that seed. The world has a reseed() of its own.
     void reseed(uint64_t seed);

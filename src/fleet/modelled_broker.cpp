@@ -20,18 +20,25 @@ void ModelledBroker::connect(Way& way) {
     way.connected_ = true;
     ++way.connection_;
     way.last_up_ = way.last_down_ = now_;
-    send({.way = &way, .connection = way.connection_, .what = LinkEvent(Connected{})}, 1);
+    send({.way = &way, .connection = way.connection_, .what = LinkEvent(Connected{})});
+    way.away_since_.reset();
+    for (Packet& packet : std::exchange(way.kept_, {})) {
+        packet.connection = way.connection_;
+        const bool expired =
+            packet.expires_s > 0 && now_ - packet.since >= std::chrono::seconds(packet.expires_s);
+        expired ? static_cast<void>(++lost_) : send(std::move(packet));
+    }
 }
 
 void ModelledBroker::Way::subscribe(const std::vector<Filter>& filters) {
     if (!connected_) return;
-    broker_.send({.way = this, .connection = connection_, .to_broker = true, .what = filters}, 1);
+    broker_.send({.way = this, .connection = connection_, .to_broker = true, .what = filters});
 }
 
 void ModelledBroker::Way::publish(const Post& post) {
     if (!connected_) return;
-    broker_.send({.way = this, .connection = connection_, .to_broker = true, .what = post},
-                 post.qos);
+    broker_.send(
+        {.way = this, .connection = connection_, .to_broker = true, .what = post, .qos = post.qos});
 }
 
 // ---- what ways do to messages ----
@@ -50,19 +57,22 @@ Time ModelledBroker::arrival(Time& last, int times_lost) {
     return last;
 }
 
-void ModelledBroker::send(Packet packet, int qos) {
+bool ModelledBroker::is_message(const Packet& packet) {
+    const auto* const event = std::get_if<LinkEvent>(&packet.what);
+    return std::holds_alternative<Post>(packet.what) ||
+           (event != nullptr && std::holds_alternative<Received>(*event));
+}
+
+void ModelledBroker::send(Packet packet) {
     int times_lost = 0;
     while (times_lost < kLostInARowMax && chance(model_.loss)) ++times_lost;
-    if (qos == 0 && times_lost > 0) {
+    if (packet.qos == 0 && times_lost > 0) {
         ++lost_;
         return;
     }
     Way& way = *packet.way;
     Time& last = packet.to_broker ? way.last_up_ : way.last_down_;
-    const bool is_message = std::holds_alternative<Post>(packet.what) ||
-                            (std::holds_alternative<LinkEvent>(packet.what) &&
-                             std::holds_alternative<Received>(std::get<LinkEvent>(packet.what)));
-    if (qos > 0 && is_message && chance(model_.twice)) {
+    if (packet.qos > 0 && is_message(packet) && chance(model_.twice)) {
         under_way_.emplace(std::pair(arrival(last, times_lost), ++sent_), packet);
         times_lost = 0;
     }
@@ -89,20 +99,42 @@ void ModelledBroker::notice_cuts(Time now) {
         if (way->connected_ && way->cut_since_ && *way->cut_since_ + kMissedAfter <= now) {
             lose(*way);
         }
+        if (way->away_since_ && *way->away_since_ + std::chrono::seconds(kSessionSeconds) <= now) {
+            end_session(*way);
+        }
     }
 }
 
-// Both ends end the connection. What was under way is gone: its sender knows what was not
-// acknowledged.
+// Both ends end the connection. Of what was under way the sender knows what was not acknowledged:
+// the client sends it again when it is back, and so does the broker.
 void ModelledBroker::lose(Way& way) {
     way.connected_ = false;
     ++way.connection_;
-    lost_ += way.held_.size();
-    way.held_.clear();
-    way.filters_.clear();
-    matches_.clear();
+    way.away_since_ = now_;
+    for (Packet& packet : std::exchange(way.held_, {})) keep_for(way, std::move(packet));
+    for (auto& [due, packet] : under_way_) {
+        if (packet.way == &way && packet.connection != way.connection_ && !packet.to_broker) {
+            keep_for(way, std::exchange(packet, {.way = &way}));
+        }
+    }
     way.inbox_.emplace_back(Lost{"the broker does not answer any more"});
     if (!way.will_.topic.empty()) publish(way.will_, nullptr);
+}
+
+void ModelledBroker::keep_for(Way& way, Packet packet) {
+    if (packet.to_broker || packet.qos == 0 || !is_message(packet)) {
+        ++lost_;
+    } else {
+        way.kept_.push_back(std::move(packet));
+    }
+}
+
+void ModelledBroker::end_session(Way& way) {
+    way.away_since_.reset();
+    lost_ += way.kept_.size();
+    way.kept_.clear();
+    way.filters_.clear();
+    matches_.clear();
 }
 
 void ModelledBroker::pass(Time now) {
@@ -141,12 +173,12 @@ void ModelledBroker::arrive_at_broker(Packet& packet) {
     if (post.number == 0) return;
     send({.way = &way,
           .connection = way.connection_,
-          .what = LinkEvent(Acknowledged{.number = post.number})},
-         1);
+          .what = LinkEvent(Acknowledged{.number = post.number})});
 }
 
 void ModelledBroker::subscribe(Way& way, const std::vector<Filter>& filters) {
     for (const Filter& filter : filters) {
+        std::erase_if(way.filters_, [&](const Filter& one) { return one.topic == filter.topic; });
         way.filters_.push_back(filter);
         each_topic(matches_, filter, [&](auto& known) { add_match(known.second, way, filter); });
         each_topic(retained_, filter, [&](auto& kept) { deliver(way, kept.second, true); });
@@ -196,10 +228,16 @@ void ModelledBroker::publish(const Post& post, const Way* by) {
 }
 
 void ModelledBroker::deliver(Way& way, const Post& post, bool retained) {
-    if (!way.connected_) return;
+    if (!way.connected_ && !way.away_since_) return;
     auto event = event_of(way.fleet_, post.topic, post.payload, retained);
     if (!event) return;
-    send({.way = &way, .connection = way.connection_, .what = std::move(*event)}, post.qos);
+    Packet packet{.way = &way,
+                  .connection = way.connection_,
+                  .what = std::move(*event),
+                  .qos = post.qos,
+                  .since = now_,
+                  .expires_s = post.expires_s};
+    way.connected_ ? send(std::move(packet)) : keep_for(way, std::move(packet));
 }
 
 }  // namespace vagus::fleet

@@ -10,7 +10,8 @@
 //
 // As MQTT over TCP does it: each way keeps its order. A message of QoS 1 that is lost is sent
 // again, and those behind it wait; one of QoS 0 is gone. A cut is noticed after kMissedAfter, by
-// both ends; one that is over before delays what is on its way, and no more.
+// both ends; one that is over before delays what is on its way, and no more. For kSessionSeconds
+// more the broker keeps what comes for a client of QoS 1; who is back by then gets it.
 #pragma once
 
 #include <cstdint>
@@ -73,6 +74,9 @@ private:
         uint64_t connection = 0;  // of the way when it was sent; an earlier one brings nothing
         bool to_broker = false;
         std::variant<std::vector<Filter>, Post, LinkEvent> what = {};
+        int qos = 1;
+        Time since{};            // to a client: when the broker got it
+        uint32_t expires_s = 0;  // as Post says
     };
     // Filters that match a topic, and whose they are.
     struct Match {
@@ -80,12 +84,15 @@ private:
         bool own = true;
     };
 
-    void send(Packet packet, int qos);
+    void send(Packet packet);
     Time arrival(Time& last, int times_lost);
     void arrive(Packet packet);
     void arrive_at_broker(Packet& packet);
     void notice_cuts(Time now);
     void lose(Way& way);
+    void keep_for(Way& way, Packet packet);
+    void end_session(Way& way);
+    static bool is_message(const Packet& packet);
     void subscribe(Way& way, const std::vector<Filter>& filters);
     void publish(const Post& post, const Way* by);
     void deliver(Way& way, const Post& post, bool retained);
@@ -127,9 +134,11 @@ private:
     bool connected_ = false;
     uint64_t connection_ = 0;  // counted
     std::optional<Time> cut_since_;
-    std::vector<Packet> held_;      // due while it was cut
-    Time last_up_{}, last_down_{};  // when what was sent last arrives
-    std::vector<Filter> filters_;   // as the broker knows them
+    std::vector<Packet> held_;        // due while it was cut
+    std::optional<Time> away_since_;  // its connection is lost, the broker still knows it
+    std::vector<Packet> kept_;        // what has come for it since
+    Time last_up_{}, last_down_{};    // when what was sent last arrives
+    std::vector<Filter> filters_;     // as the broker knows them
     std::vector<LinkEvent> inbox_;
 };
 

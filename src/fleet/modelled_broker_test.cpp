@@ -75,6 +75,8 @@ private:
 
 using Texts = std::vector<std::string>;
 
+constexpr Duration kSession = std::chrono::seconds(kSessionSeconds);
+
 // A question and its echo are 10 ms, the subscription to events 5 ms more: by 100 ms all are there.
 TEST(ModelledBroker, AnEventTakesTheLatencyOfBothWays) {
     Class all({.latency = 5ms});
@@ -134,8 +136,8 @@ TEST(ModelledBroker, ALongCutEndsTheConnectionAndTheRobotStopsAlone) {
     all.pass(kMissedAfter);
     EXPECT_EQ(all.standing(1), Member::Standing::Apart);
     EXPECT_FALSE(all.stopped(1));
-    all.emit(0, 1);  // while it is away: it is in no session, and never hears this one
-    all.pass(kBrokerLostAfter);
+    all.emit(0, 1);  // while it is away, for longer than the broker keeps it
+    all.pass(kSession);
     EXPECT_TRUE(all.stopped(1));
     EXPECT_FALSE(all.stopped(0));
     all.restore(1);
@@ -145,6 +147,41 @@ TEST(ModelledBroker, ALongCutEndsTheConnectionAndTheRobotStopsAlone) {
     all.pass(100ms);
     ASSERT_EQ(all.heard(1).size(), 1u);
     EXPECT_TRUE(all.heard(1)[0].starts_with("r1:2 ")) << all.heard(1)[0];
+}
+
+// The first is on its way when the way is cut: it is never acknowledged. The second comes when the
+// broker has missed the robot. Both wait there for ten seconds, and no longer.
+TEST(ModelledBroker, WhatComesForARobotThatIsAwayWaitsTenSeconds) {
+    Class all({.latency = 5ms});
+    all.add("r1");
+    all.add("r2");
+    all.pass(100ms);
+    all.emit(0, 1);
+    all.cut(1);
+    all.pass(kMissedAfter);
+    EXPECT_EQ(all.standing(1), Member::Standing::Apart);
+    all.emit(0, 2);
+    all.pass(2s);
+    all.restore(1);
+    all.pass(1s);
+    ASSERT_EQ(all.heard(1).size(), 2u);
+    EXPECT_TRUE(all.heard(1)[0].starts_with("r1:1 ")) << all.heard(1)[0];
+    EXPECT_TRUE(all.heard(1)[1].starts_with("r1:2 ")) << all.heard(1)[1];
+}
+
+// It is 11 s old when the robot is back; the connection was lost only 3.5 s before.
+TEST(ModelledBroker, AnEventThatIsTooOldIsNotPassedOn) {
+    Class all({.latency = 5ms});
+    all.add("r1");
+    all.add("r2");
+    all.pass(100ms);
+    all.emit(0, 1);
+    all.cut(1);
+    all.pass(11s);
+    all.restore(1);
+    all.pass(1s);
+    EXPECT_EQ(all.standing(1), Member::Standing::Holding);
+    EXPECT_EQ(all.heard(1), Texts{});
 }
 
 // What the robot itself said while it was apart is said when it is back (Outbox).

@@ -167,7 +167,7 @@ std::vector<run::BusEvent> PlanWorld::arrived() {
 }
 
 std::vector<run::BusEvent> PlanWorld::hear() {
-    std::vector<run::BusEvent> heard;
+    std::vector<run::BusEvent> heard = std::exchange(brought_, {});
     for (const debug::Event& event : session_.take_heard()) {
         if (auto one = ears_.hear(event)) heard.push_back(std::move(*one));
     }

@@ -72,6 +72,9 @@ public:
     SimSession& session() { return session_; }
     const SimSession& session() const { return session_; }
 
+    // On the deciding thread: something that is no event of the bus, at the next instant.
+    void bring(run::BusEvent event) { brought_.push_back(std::move(event)); }
+
     // ---- run::Surroundings ----
     Time next() const override { return session_.now() + sim::kNodeStep; }
     std::vector<run::BusEvent> begin() override;
@@ -89,6 +92,7 @@ private:
     WorldCamera camera_;
     BusNames names_;
     BusEars ears_;
+    std::vector<run::BusEvent> brought_;
     std::function<void(Time)> before_each_;
     std::function<void(Time, const run::BusEvent&)> told_of_emit_;
     std::mutex mutex_;  // guards what follows

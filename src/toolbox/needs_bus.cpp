@@ -50,7 +50,8 @@ Status check_without_fleet(const plan::Graph& graph) {
         found = Error{Code::Unavailable,
                       fmt::format("the plan {} needs a fleet: the template {} of \"{}\" asks the "
                                   "other robots; name one in the robot's vagus.json, as \"fleet\": "
-                                  "{{ \"name\": \"lab\" }}, and run it in a world with `vagus sim`",
+                                  "{{ \"name\": \"lab\" }}, and run it in a world with `vagus "
+                                  "sim`, or on a robot with `vagus serve --fleet`",
                                   plan.name, element.of->name, element.name)};
     });
     return found;

@@ -160,7 +160,7 @@ class Fleet(Case):
         second.kill()
         done = self.desk("stop", "all", wait=2)
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertRegex(done.stdout, r"(?m)^r1: stopped$[\s\S]*^r2: did not answer$[\s\S]*^1 of 2 robots: stopped$")
+        self.assertRegex(done.stdout, r"(?m)^r1: stopped$[\s\S]*^r2: did not answer \(lost\)$[\s\S]*^1 of 2 robots: stopped$")
 
     def test_start_pause_and_continue(self):
         self.broker("r1")
@@ -206,6 +206,14 @@ class Fleet(Case):
         self.do("start", "r1")
         self.wait_state("r1", "running")
 
+    def test_a_script_that_does_not_start_is_a_fault_that_says_why(self):
+        self.broker("r1")
+        self.joined("r1", script="timer.period[0] = 20\n\nonevent timer0\n\twhile 1 == 1 do\n\tend\n")
+        self.wait_state("r1", "fault")
+        self.assertRegex(self.do("list"), r"r1: online, fault for \d+ s \(Thymio\); it does not start: node 1: line 4: .*never end")
+        self.assertIn("1 of 1 robots: stopped", self.do("stop", "all"))
+        self.wait_state("r1", "stopped")
+
     def test_a_robot_that_dies_is_lost_and_comes_back(self):
         self.broker("r1")
         first = self.joined("r1")
@@ -218,7 +226,7 @@ class Fleet(Case):
         self.broker("r1")
         first = self.joined("r1")
         first.stop()
-        wait_until("it never was offline", lambda: self.desk("list").stdout == "")
+        wait_until("it never was offline", lambda: "no robot of the fleet" in self.desk("list").stdout)
         self.assertIn("offline", self.desk("list", "r1").stdout)
         done = self.desk("forget", "r1", by="operator")
         self.assertEqual(done.returncode, 1)

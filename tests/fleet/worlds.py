@@ -6,9 +6,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
+from fleet import AESL, Case, PART, ROOT, SCRIPT  # noqa: E402
 import projects  # noqa: E402
-from harness import vagus  # noqa: E402
+from harness import vagus, wait_until  # noqa: E402
 
 
 class Worlds(Case):
@@ -44,6 +44,21 @@ class Worlds(Case):
         done = self.desk("set", "s1", "thymio-II.go", 1)
         self.assertEqual(done.returncode, 1)
         self.assertIn("s1: not done: set is no command for a robot of a world", done.stdout)
+
+    def test_a_class_of_thirty(self):
+        """`examples/alarm`, with thirty logins by one word. Robots are listed as they are counted."""
+        world = ["sim", ROOT / "examples/alarm/class.world.json", "--headless", "--fleet", f"mqtts://localhost:{self.port}/lab",
+                 "--tls-ca", self.broker_folder / "ca.crt", "--logins", self.broker_folder]
+        self.init()
+        with vagus(*world) as without:
+            self.assertEqual(without.wait_end(), 2)
+            self.assertRegex("\n".join(without.lines), r"robot t1: .*there is no such login; `vagus fleet init .* --robot t1` makes it")
+        self.init("t1..t30")
+        self.serve_broker()
+        self.enterContext(vagus(*world))
+        wait_until("not all were there", lambda: len(self.states()) == 30)
+        lines = self.do("stop", "all").splitlines()
+        self.assertEqual(lines, [*(f"t{number}: stopped" for number in range(1, 31)), "30 of 30 robots: stopped"])
 
     def test_they_say_good_bye(self):
         self.broker("s1", "s2")

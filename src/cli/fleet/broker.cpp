@@ -17,6 +17,7 @@
 #include "cli/output.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/operator.hpp"
+#include "fleet/robot_names.hpp"
 #include "fleet/topic.hpp"
 #include "keeper/keeper.hpp"
 #include "net/end_signal.hpp"
@@ -170,7 +171,8 @@ private:
                    "persistence true\npersistence_location {}/\nautosave_interval 60\n"
                    "max_packet_size {}\nmax_queued_messages {}\nmax_queued_bytes "
                    "{}\nset_tcp_nodelay true\n"
-                   "log_dest stderr\nlog_type error\nlog_type warning\nlog_type notice\n"
+                   "log_dest stderr\nlog_type error\nlog_type notice\n"
+                   "log_timestamp_format %Y-%m-%dT%H:%M:%S\n"
                    "connection_messages false\n",
                    user_of_this_process(), path("passwords"), path("access"), path("data"),
                    fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax, kQueuedMax,
@@ -349,7 +351,8 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
     verb->add_option("--host", options->hosts, "a further name or address of this computer")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    verb->add_option("--robot", options->robots, "a robot that gets a login")
+    verb->add_option("--robot", options->robots,
+                     "a robot that gets a login; t1..t30: thirty of them")
         ->type_name("NAME")
         ->allow_extra_args(false);
     verb->footer(
@@ -359,7 +362,14 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
         "every\n"
         "robot. What is already there is kept: run init again to add another --robot.\n"
         "Example:\n  vagus fleet init broker --host broker.local --robot r1 --robot r2");
-    verb->callback([options, &exit_code] { exit_code = init(*options); });
+    verb->callback([options, &exit_code] {
+        for (const std::string& word : std::exchange(options->robots, {})) {
+            for (std::string& name : fleet::names_in(word)) {
+                options->robots.push_back(std::move(name));
+            }
+        }
+        exit_code = init(*options);
+    });
 
     const auto fleets = std::make_shared<std::vector<std::string>>(1, "lab");
     verb = fleet.add_subcommand("serve", "runs mosquitto with what `init` made, and keepers");

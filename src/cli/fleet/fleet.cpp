@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "base/json_part.hpp"
@@ -16,6 +17,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "fleet/limits.hpp"
+#include "fleet/robot_names.hpp"
 #include "net/end_signal.hpp"
 
 namespace vagus::cli {
@@ -72,7 +74,13 @@ std::string json_of(const std::string& name, const fleet::Known& robot) {
 }
 
 std::vector<std::string> names_of(FleetSession& session, const FleetCall& call) {
-    return session.desk().chosen(chosen_by(call));
+    std::vector<std::string> names = session.desk().chosen(chosen_by(call));
+    std::ranges::sort(names, fleet::counted_before);
+    return names;
+}
+
+std::string nobody(const FleetSession& session) {
+    return fmt::format("no robot of the fleet \"{}\" is there", session.fleet());
 }
 
 int list(FleetSession& session, const FleetCall& call) {
@@ -80,7 +88,9 @@ int list(FleetSession& session, const FleetCall& call) {
     const auto is_known = [&] { return session.desk().all_are_fresh(); };
     session.wait_until(is_known, fleet::kStateEveryMax + 1s);
     bool all_answer = true;
-    for (const std::string& name : names_of(session, call)) {
+    const std::vector<std::string> names = names_of(session, call);
+    if (names.empty() && !call.json) print(nobody(session) + "\n");
+    for (const std::string& name : names) {
         const auto found = session.desk().robots().find(name);
         const fleet::Known robot =
             found == session.desk().robots().end() ? fleet::Known{} : found->second;
@@ -156,8 +166,11 @@ int follow(FleetSession& session, const FleetCall& call, bool events) {
 
 // ---- orders ----
 
-std::string outcome_line(const fleet::Outcome& one, const std::string& done) {
-    if (!one.answered) return one.robot + ": did not answer";
+// `connection`: "lost", "offline"; empty where it is online.
+std::string outcome_line(const fleet::Outcome& one, const std::string& done,
+                         const std::string& connection) {
+    if (!one.answered && connection.empty()) return one.robot + ": did not answer";
+    if (!one.answered) return fmt::format("{}: did not answer ({})", one.robot, connection);
     if (one.answer.done) return one.robot + ": " + done;
     std::string line = one.robot + ": not done";
     if (!one.answer.what.empty()) line += ": " + one.answer.what;
@@ -167,17 +180,25 @@ std::string outcome_line(const fleet::Outcome& one, const std::string& done) {
     return line;
 }
 
+std::string missing_connection(FleetSession& session, const std::string& robot) {
+    const auto known = session.desk().robots().find(robot);
+    if (known == session.desk().robots().end()) return "no robot of that name is known";
+    if (!known->second.connection) return "unknown";
+    return fleet::Operator::is_online(known->second) ? "" : known->second.connection->state;
+}
+
 int order(FleetSession& session, const FleetCall& call) {
     const fleet::Command& command = call.command;
     const fleet::OrderNumber number =
         session.desk().begin({command, chosen_by(call)}, session.now());
     session.wait_until([&] { return session.desk().is_over(number); }, wait_of(call));
-    const std::vector<fleet::Outcome> outcomes = session.desk().outcomes(number);
-    if (outcomes.empty()) return complain("no robot is there that this is for");
+    std::vector<fleet::Outcome> outcomes = session.desk().outcomes(number);
+    std::ranges::sort(outcomes, fleet::counted_before, &fleet::Outcome::robot);
+    if (outcomes.empty()) return complain(nobody(session) + " that this is for");
     const std::string done = command.verb == "stop" ? "stopped" : "done";
     size_t good = 0;
     for (const fleet::Outcome& one : outcomes) {
-        print(outcome_line(one, done) + "\n");
+        print(outcome_line(one, done, missing_connection(session, one.robot)) + "\n");
         good += one.answered && one.answer.done ? 1 : 0;
     }
     print(fmt::format("{} of {} robots: {}\n", good, outcomes.size(), done));

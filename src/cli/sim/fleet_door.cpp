@@ -1,5 +1,7 @@
 #include "cli/sim/fleet_door.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "fleet/topic.hpp"
@@ -14,6 +16,12 @@ Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const s
     if (!logins.empty()) {
         const std::string file = fleet::escape(member.robot) + ".login";
         broker.login = (std::filesystem::path(logins) / file).string();
+        if (!std::filesystem::exists(broker.login)) {
+            return Error{Code::NotFound,
+                         fmt::format("{}: there is no such login; `vagus fleet init {} --robot {}` "
+                                     "makes it (t1..t30: thirty of them)",
+                                     broker.login, logins, member.robot)};
+        }
     }
     serve::LinkOptions link =
         TRY(serve::link_options(broker, member.robot + "-" + member.instance));

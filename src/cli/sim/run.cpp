@@ -209,7 +209,8 @@ bool SimRun::settle() {
 
 Duration SimRun::end() const {
     if (options_.duration) return from_seconds(*options_.duration);
-    return on_terminal() ? Duration::max() : kHeadlessFor;
+    const bool is_among_others = !options_.fleet.target.empty();
+    return on_terminal() || is_among_others ? Duration::max() : kHeadlessFor;
 }
 
 int SimRun::run() {

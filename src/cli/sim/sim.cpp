@@ -104,8 +104,8 @@ void add_sim(CLI::App& app, int& exit_code) {
     verb->footer(
         "On a terminal it shows the arena from above; keys are listed at the bottom. Without a "
         "terminal it\n"
-        "prints plain lines and ends by itself after 20 simulated seconds, unless --duration says "
-        "otherwise.\n"
+        "prints plain lines and ends by itself after 20 simulated seconds (with --fleet: at "
+        "Ctrl-C),\nunless --duration says otherwise.\n"
         "A plain script (no project) needs no declarations: `emit NAME` declares the event.\n"
         "\n"
         "Example:\n"

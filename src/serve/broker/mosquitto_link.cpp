@@ -54,6 +54,18 @@ std::string sentence_of(int result) {
     return result == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(result);
 }
 
+// The library does not say what is wrong with a certificate.
+std::string sentence_of_tls(const LinkOptions& options) {
+    if (options.ca.empty()) {
+        return "TLS failed: this computer does not trust the broker's certificate; name the "
+               "authority that signed it, as --tls-ca ca.crt";
+    }
+    return fmt::format(
+        "TLS failed: the broker's certificate is not signed by {}, or is not for "
+        "the name {}",
+        options.ca, options.target.host);
+}
+
 }  // namespace
 
 // What the owner and the thread share.
@@ -139,7 +151,7 @@ public:
         const int begun =
             mosquitto_connect_bind_v5(library_, options.target.host.c_str(), options.target.port,
                                       fleet::kKeepAliveSeconds, nullptr, properties.list());
-        return begun == MOSQ_ERR_SUCCESS ? "" : sentence_of(begun);
+        return begun == MOSQ_ERR_SUCCESS ? "" : why_of(begun);
     }
 
     // Moves bytes until there is something to do; false: it is over, and why() says why.
@@ -205,8 +217,11 @@ private:
     static constexpr int kFirstFailure = 0x80;  // of the reason codes of MQTT 5
 
     bool end(int result) {
-        why_ = refused_.empty() ? sentence_of(result) : refused_;
+        why_ = refused_.empty() ? why_of(result) : refused_;
         return false;
+    }
+    std::string why_of(int result) const {
+        return result == MOSQ_ERR_TLS ? sentence_of_tls(link_.options()) : sentence_of(result);
     }
 
     static void on_connect(mosquitto*, void* self, int code, int, const mosquitto_property*) {
@@ -225,7 +240,7 @@ private:
             session.refused_ = "the broker has ended the connection";
         } else {
             session.refused_ =
-                code >= kFirstFailure ? mosquitto_reason_string(code) : sentence_of(code);
+                code >= kFirstFailure ? mosquitto_reason_string(code) : session.why_of(code);
         }
     }
     static void on_publish(mosquitto*, void* self, int id, int code, const mosquitto_property*) {

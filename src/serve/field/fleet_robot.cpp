@@ -62,8 +62,17 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
                                  member.robot, fleet::kNameBytesMax)};
     }
     link.will = fleet::Member(member, now).will();
-    return std::unique_ptr<FleetRobot>(
+    talk::MemberOf asks{.target = to_string(link.target),
+                        .robot = member.robot,
+                        .instance = member.instance,
+                        .ca = options.ca,
+                        .certificate = options.certificate,
+                        .key = options.key,
+                        .login = options.login};
+    std::unique_ptr<FleetRobot> robot(
         new FleetRobot(bench, std::move(member), std::move(link), std::move(talk), now));
+    robot->let_plans_ask(std::move(asks));
+    return robot;
 }
 
 FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
@@ -119,8 +128,16 @@ Result<plan::Value> FleetRobot::read(const plan::WordFormula::Name& name) {
                                              name.shown, word.name, found->second.size())};
 }
 
+// A plan is another process, with a link of its own; what it tells goes over this one.
+void FleetRobot::let_plans_ask(talk::MemberOf member) {
+    bench_.join_fleet(std::move(member), [this](const talk::ToldFleet& told) {
+        member_.changed("plan", told.name, told.values);
+    });
+}
+
 FleetRobot::~FleetRobot() {
     bench_.on_tells({}, {});
+    bench_.join_fleet({}, {});
     member_.leave();
     perform_all();
 }
@@ -129,11 +146,22 @@ bool FleetRobot::is_of(const OpenedProject& project) const {
     return project.fleet == project_;
 }
 
+// One that is started again and again is not shown as running and stopped in turn.
+fleet::Shown FleetRobot::shown() const {
+    fleet::Shown shown = bench_.shown();
+    if (refused_.empty()) return shown;
+    shown.state = "fault";
+    shown.problems.insert(shown.problems.begin(),
+                          std::string(utf8_prefix(refused_, fleet::kLineBytesMax)));
+    if (shown.problems.size() > fleet::kProblemsMax) shown.problems.resize(fleet::kProblemsMax);
+    return shown;
+}
+
 void FleetRobot::tick(Time now) {
     now_ = now;
     for (const fleet::LinkEvent& event : link_.take()) member_.hear(event, now);
     if (tell_list_.forget_old(now)) tell_variables();
-    member_.show(bench_.shown(), now);
+    member_.show(shown(), now);
     member_.tick(now);
     perform_all();
 }
@@ -151,7 +179,8 @@ void FleetRobot::perform_all() {
 }
 
 void FleetRobot::perform(const fleet::EmitOnBus& event) {
-    const Status sent = bench_.emit(event.event, event.args);
+    const Status sent =
+        bench_.hear_of_fleet({.event = event.event, .from = event.from, .args = event.args});
     if (sent.ok()) return;
     talk_.log("warning", fmt::format("fleet: the event {} of {} could not be passed on: {}",
                                      event.event, event.from, sent.error().what));

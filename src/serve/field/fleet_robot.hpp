@@ -37,6 +37,8 @@ public:
     // Whether it joined for this project, as its file says now.
     bool is_of(const OpenedProject& project) const;
     void tick(Time now);
+    // Why its program does not run; empty: it does, or it is not to. Shown as a fault.
+    void does_not_start(const std::string& why) { refused_ = why; }
     // What became of the version that was wanted.
     void deployed(const fleet::Version& version) { member_.deployed(version); }
     // Words of nodes in the project's condition of being well are read from now on, or no longer.
@@ -48,6 +50,8 @@ public:
 private:
     FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
                Time now);
+    void let_plans_ask(talk::MemberOf member);
+    fleet::Shown shown() const;
     void perform_all();
     void tell_variables();
     fleet::Answer tell_for_a_minute(const fleet::Command& command);
@@ -64,6 +68,7 @@ private:
     const fleet::ProjectPart project_;
     fleet::Member member_;
     fleet::TellList tell_list_;
+    std::string refused_;
     bool reads_condition_ = false;
     std::vector<fleet::Tells> condition_words_;          // of nodes
     std::map<fleet::Tells, std::vector<int16_t>> read_;  // of these, as they were told last

@@ -100,6 +100,7 @@ private:
         }
         wanted_.tick(now);
         robot_->read_condition(wanted_.lacks_health());
+        robot_->does_not_start(starter_.refused());
         robot_->tick(now);
     }
 

@@ -18,6 +18,7 @@ void Starter::begin(Time now) {
     ++attempt_;
     state_ = State::Waiting;
     why_ = "it has not begun yet";
+    refused_.clear();
     told_.clear();
     next_ = now_ = now;
 }
@@ -26,6 +27,7 @@ void Starter::give_up() {
     ++attempt_;
     state_ = State::Idle;
     why_ = "it was stopped";
+    refused_.clear();
 }
 
 void Starter::died(Time now) {
@@ -68,10 +70,12 @@ void Starter::tick(Time now) {
     call_.start([this, attempt = ++attempt_](const std::string& why) {
         if (attempt != attempt_) return;
         if (!why.empty()) {
-            return wait("error", "it does not start: " + why, now_ + kStartAgainAfter);
+            refused_ = "it does not start: " + why;
+            return wait("error", refused_, now_ + kStartAgainAfter);
         }
         state_ = State::Started;
         why_.clear();
+        refused_.clear();
     });
 }
 

@@ -49,6 +49,9 @@ public:
     State state() const { return state_; }
     // Why it does not run yet: a sentence.
     const std::string& why() const { return why_; }
+    // The same of the start that was tried last, also while it is tried again; empty: it succeeded,
+    // or none was tried.
+    const std::string& refused() const { return refused_; }
 
     void tick(Time now);
     Time next_tick() const;
@@ -59,6 +62,7 @@ private:
     Callbacks call_;
     State state_ = State::Idle;
     std::string why_;
+    std::string refused_;
     std::string told_;
     std::deque<Time> deaths_;  // the last ones
     Time next_{};

@@ -52,6 +52,7 @@ TEST_F(StarterTest, StartsAgainAfterAFailure) {
     starts[0]("the plan has an error");
     EXPECT_EQ(starter.state(), Starter::State::Waiting);
     EXPECT_EQ(starter.why(), "it does not start: the plan has an error");
+    EXPECT_EQ(starter.refused(), "it does not start: the plan has an error");
     starter.tick(kStartAgainAfter - 1us);
     EXPECT_EQ(starts.size(), 1u);
     starter.tick(kStartAgainAfter);

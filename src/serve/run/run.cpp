@@ -100,6 +100,7 @@ talk::Open Run::open_order(const RunOrder& order) {
     open.project = order.project;
     open.recording = order.recording;
     open.past = order.past;
+    open.member = member_;
     if (order.keep_poses) open.poses = flows_.poses_now();
     return open;
 }
@@ -161,6 +162,10 @@ Time Run::next_tick() const {
 
 void Run::tell(const talk::Order& order) {
     if (child_) child_->pipe().send(talk::encode(order));
+}
+
+void Run::hear_of_fleet(const talk::HearOfFleet& event) {
+    tell(event);
 }
 
 void Run::pace(bool paused, double speed) {

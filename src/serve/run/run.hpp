@@ -170,6 +170,14 @@ public:
     // Raises an event of a supervisor that watches, as if it had done so itself.
     void raise(const std::string& supervisor, const std::string& event, const Json& outputs,
                SetDone done);
+    // As which member of a fleet its plans ask, from the next one on; nothing: as none. `told`:
+    // variables that they tell.
+    using ToldFleet = std::function<void(const talk::ToldFleet& told)>;
+    void join_fleet(std::optional<talk::MemberOf> member, ToldFleet told) {
+        member_ = std::move(member);
+        told_fleet_ = std::move(told);
+    }
+    void hear_of_fleet(const talk::HearOfFleet& event);
     // Of the events that wait while the plan is paused.
     void handle_held(talk::HeldAct act, std::optional<uint64_t> number, SetDone done);
 
@@ -252,6 +260,9 @@ private:
     void hear(const talk::Records& records) { told_.records(records.bytes.bytes); }
     void hear(const talk::HappenedNow& happened);
     void hear(const talk::PictureThen& picture) { told_.picture(picture); }
+    void hear(const talk::ToldFleet& told) {
+        if (told_fleet_) told_fleet_(told);
+    }
     void hear_end(const std::string& what);
     void be_over(const std::string& what);
 
@@ -272,6 +283,8 @@ private:
     std::function<void(const PlanEnd&)> plan_ended_ = [](const PlanEnd&) {};
     std::function<void(const BreakpointsNow&)> breakpoints_told_ = [](const auto&) {};
     Told told_;
+    std::optional<talk::MemberOf> member_;
+    ToldFleet told_fleet_;
     uint64_t asked_ = 0;
     std::map<uint64_t, Answered> answers_;  // of the runner, by number of what was asked
     std::map<uint16_t, std::string> programs_;

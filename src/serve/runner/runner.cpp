@@ -16,6 +16,7 @@
 #include "serve/runner/pacer.hpp"
 #include "serve/runner/plan_runner.hpp"
 #include "serve/runner/reliving.hpp"
+#include "serve/runner/run_fleet.hpp"
 #include "serve/runner/run_recording.hpp"
 #include "serve/runner/scene.hpp"
 #include "serve/runner/world_show.hpp"
@@ -23,6 +24,7 @@
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
 #include "sim/world_threads.hpp"
+#include "toolbox/needs_bus.hpp"
 
 namespace vagus::serve {
 
@@ -69,6 +71,16 @@ private:
         }
         if (pipe_.closed()) quit_ = true;
         if (quit_) stop_plan();
+        tend_fleet();
+    }
+
+    // However time passes for the run, the fleet's is that of the wall.
+    void tend_fleet() {
+        if (!fleet_) return;
+        if (fleet_->turn()) prepared_->hear({std::string(toolbox::kFleetNews), {}});
+        for (RunFleet::Told& told : fleet_->take_told()) {
+            teller_.tell(talk::ToldFleet{std::move(told.name), std::move(told.values)});
+        }
     }
 
     // What is for the run waits until its past is over, but for another one in its place.
@@ -131,6 +143,10 @@ private:
         recording_.loaded(order.node, order.file, order.text);
     }
     void obey(const talk::FlushRecording& order) { recording_.flush(order.request); }
+    void obey(const talk::HearOfFleet& order) {
+        if (!fleet_) return;
+        prepared_->hear({toolbox::fleet_event(order.event, order.from), order.args});
+    }
     // A hand from above.
     template <typename Hand>
     void obey(const Hand& order) {
@@ -200,20 +216,40 @@ private:
         if (!added.ok()) return fail(added.error().what);
         const auto plan = embed::LoadedPlan::from_file(order.plan, library);
         if (!plan.ok()) return fail(plan.report());
+        const Result<std::unique_ptr<RunFleet>> fleet = fleet_of(order, plan);
+        if (!fleet.ok()) return fail(fleet.error().what);
+        parts.fleet = fleet.value().get();
         auto prepared = embed::PreparedRun::prepare(plan, words_of(order), parts);
         if (!prepared.ok()) return fail(prepared.error().what);
         prepared_ = std::move(prepared.value());
+        fleet_ = parts.fleet != nullptr ? fleet.value().get() : nullptr;
         heard_ = session::events_heard(plan.plans(), library.templates());
         plan_.want(order.breakpoints);
         const bool in_world = prepared_->world() != nullptr;
-        if (in_world) recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
+        if (in_world && !fleet_) {
+            recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
+        }
         plan_.begin(plan, order.plan, in_world ? PlanRunner::On::World : PlanRunner::On::Bus);
         in_world ? run_in_world(order) : run_on_bus(session::stop_events(library.templates()));
         plan_.forget();
         heard_.clear();
         recording_.end();
         session_ = nullptr;
+        fleet_ = nullptr;
         prepared_.reset();
+    }
+
+    // nullptr: the plan asks no fleet, or the robot is in none. What a fleet says is not recorded.
+    Result<std::unique_ptr<RunFleet>> fleet_of(const talk::Open& order,
+                                               const embed::LoadedPlan& plan) {
+        const bool asks = !toolbox::check_without_fleet(plan.graph()).ok();
+        if (!asks || !order.member) return std::unique_ptr<RunFleet>();
+        if (order.past) {
+            return Error{Code::Unavailable,
+                         "a run whose plan asks its fleet has no past to go on "
+                         "from: what others said then is not recorded"};
+        }
+        return RunFleet::open(*order.member, number_, wall_now);
     }
 
     static embed::RunWords words_of(const talk::Open& order) {
@@ -239,6 +275,7 @@ private:
         if (!past_.is_on() || tells_past_) plan_.tell_version();
         const auto ended = prepared_->run(&plan_.debugger());
         if (!ended.ok()) teller_.line(talk::LineKind::Error, ended.error().what);
+        fleet_ = nullptr;
         tell_plan();
         plan_.end_talk();
         live();
@@ -499,6 +536,7 @@ private:
     std::vector<talk::BreakpointOrder> breakpoints_ = {};  // of the order
     std::unique_ptr<session::SimSession> own_;
     std::unique_ptr<embed::PreparedRun> prepared_;
+    RunFleet* fleet_ = nullptr;               // of its plan
     session::SimSession* session_ = nullptr;  // of one of the two
     hub::LinkId link_;
     std::set<std::string> heard_;  // events, by the plan

@@ -78,6 +78,7 @@ std::vector<Order> orders() {
         SendFrame{frame()},
         ScriptLoaded{3, "/home/me/carbot.aesl", "var x\n"},
         FlushRecording{13},
+        HearOfFleet{"alarm", "r2", {7, -32768}},
     };
 }
 
@@ -135,6 +136,7 @@ std::vector<News> news() {
                        .args = {-32768, 7, 32767},
                        .line = 12}}}},
         PictureThen{1.5, "alice", {"pixels"}},
+        ToldFleet{"n", {-32768, 7}},
     };
 }
 

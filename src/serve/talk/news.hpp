@@ -362,8 +362,20 @@ struct HappenedNow {
 };
 
 // All of them. Which one a packet holds is its place in this list.
+// A variable of its plan that it tells the fleet.
+struct ToldFleet {
+    std::string name = {};
+    std::vector<int16_t> values = {};
+    static constexpr std::string_view kName = "fleet.told";
+    static void layout(auto& each, auto& it) {
+        each("name", it.name);
+        each("values", it.values);
+    }
+    bool operator==(const ToldFleet&) const = default;
+};
+
 using News = std::variant<Alive, Opening, Opened, OpenFailed, PlanVersion, Traced, PlanNow, HeldNow,
                           BreakpointsNow, PlanOver, Answer, Line, Clock, SceneNow, FrameSeen, Poses,
-                          Rays, Picture, Records, HappenedNow, PictureThen>;
+                          Rays, Picture, Records, HappenedNow, PictureThen, ToldFleet>;
 
 }  // namespace vagus::serve::talk

@@ -61,6 +61,23 @@ struct PastOf {
     bool operator==(const PastOf&) const = default;
 };
 
+// The member of a fleet that the plan asks as.
+struct MemberOf {
+    std::string target = {};  // mqtts://HOST:PORT/FLEET
+    std::string robot = {}, instance = {};
+    std::string ca = {}, certificate = {}, key = {}, login = {};  // files
+    static void layout(auto& each, auto& it) {
+        each("target", it.target);
+        each("robot", it.robot);
+        each("instance", it.instance);
+        each("ca", it.ca);
+        each("certificate", it.certificate);
+        each("key", it.key);
+        each("login", it.login);
+    }
+    bool operator==(const MemberOf&) const = default;
+};
+
 struct Open {
     uint64_t order = 0;                          // counts up; what is told of it names it
     std::string world = {};                      // files of this computer
@@ -80,6 +97,7 @@ struct Open {
     std::vector<std::string> starts = {};  // "ROBOT=X,Y,DEGREES"
     std::string chaos = {};                // faults, as JSON
     std::optional<PastOf> past = {};       // it goes on from there: the rest is as it was then
+    std::optional<MemberOf> member = {};   // none: it is in no fleet
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -99,6 +117,7 @@ struct Open {
         each("starts", it.starts);
         each("chaos", it.chaos);
         each("past", it.past);
+        each("member", it.member);
     }
     bool operator==(const Open&) const = default;
 };
@@ -395,9 +414,23 @@ struct FlushRecording {
 };
 
 // All of them. Which one a packet holds is its place in this list.
-using Order = std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes,
-                           SetBreakpoints, SetVariable, RaiseEvent, HandleHeld, ChangePlan,
-                           CheckPlan, MoveRobot, MoveObject, PutObject, TakeObject, SwitchLight,
-                           PressButton, TapRobot, SendFrame, ScriptLoaded, FlushRecording>;
+// An event of the fleet, for the plan: the bus has it, too.
+struct HearOfFleet {
+    std::string event = {}, from = {};
+    std::vector<int16_t> args = {};
+    static constexpr std::string_view kName = "fleet.hear";
+    static void layout(auto& each, auto& it) {
+        each("event", it.event);
+        each("from", it.from);
+        each("args", it.args);
+    }
+    bool operator==(const HearOfFleet&) const = default;
+};
+
+using Order =
+    std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes, SetBreakpoints,
+                 SetVariable, RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject,
+                 PutObject, TakeObject, SwitchLight, PressButton, TapRobot, SendFrame, ScriptLoaded,
+                 FlushRecording, HearOfFleet>;
 
 }  // namespace vagus::serve::talk

@@ -55,6 +55,11 @@ void Workbench::on_tells(std::vector<fleet::Tells> variables, TargetTells tells)
     target_.on_tells(std::move(tells));
 }
 
+Status Workbench::hear_of_fleet(const talk::HearOfFleet& event) {
+    if (run_.plan_runs()) run_.hear_of_fleet(event);
+    return emit(event.event, event.args);
+}
+
 void Workbench::stop_for(const std::string& by) {
     stopped_();
     end_by(by, life::Why::Stop);

@@ -139,6 +139,12 @@ public:
     Status emit(const std::string& event, const std::vector<int16_t>& args) {
         return target_.emit(event, args);
     }
+    // The same, and the plan hears from whom it is.
+    Status hear_of_fleet(const talk::HearOfFleet& event);
+    // As which member plans ask the fleet, from the next run on; nothing: as none.
+    void join_fleet(std::optional<talk::MemberOf> member, Run::ToldFleet told) {
+        run_.join_fleet(std::move(member), std::move(told));
+    }
     // Whether a node of that name has it; the Error names those that there are.
     Status find_variable(const std::string& node, const std::string& name) const {
         return target_.find_variable(node, name);

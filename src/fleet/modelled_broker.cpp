@@ -26,7 +26,11 @@ void ModelledBroker::connect(Way& way) {
         packet.connection = way.connection_;
         const bool expired =
             packet.expires_s > 0 && now_ - packet.since >= std::chrono::seconds(packet.expires_s);
-        expired ? static_cast<void>(++lost_) : send(std::move(packet));
+        if (expired) {
+            ++lost_;
+        } else {
+            send(std::move(packet));
+        }
     }
 }
 
@@ -237,7 +241,11 @@ void ModelledBroker::deliver(Way& way, const Post& post, bool retained) {
                   .qos = post.qos,
                   .since = now_,
                   .expires_s = post.expires_s};
-    way.connected_ ? send(std::move(packet)) : keep_for(way, std::move(packet));
+    if (way.connected_) {
+        send(std::move(packet));
+    } else {
+        keep_for(way, std::move(packet));
+    }
 }
 
 }  // namespace vagus::fleet

@@ -334,7 +334,7 @@ private:
             const Actor& actor = plan_.actors[i];
             if (ends[i] || !reached_[i]) continue;
             say("W7", actor.name, actor.line,
-                fmt::format("no way leads from \"{}\" to @terminate: the plan can only be aborted",
+                fmt::format("no way leads from \"{}\" to @terminate: the plan can only be stopped",
                             actor.name));
         }
     }

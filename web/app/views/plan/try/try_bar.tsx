@@ -93,7 +93,8 @@ function pressed(event: KeyboardEvent<HTMLElement>, trying: Trying): void {
   if (ctrlKey || altKey || metaKey) return;
   const isTyped = event.target instanceof HTMLInputElement && key !== 'Escape';
   if (isTyped) return;
-  const option = /^[1-9]$/.test(key) ? trying.options[Number(key) - 1] : undefined;
+  const digit = digitOf(event);
+  const option = digit === null ? undefined : trying.options[digit - 1];
   const by = { ArrowRight: 1, ArrowLeft: -1 }[key];
   if (option) void trying.choose(option);
   else if (key === 'Backspace') void trying.back(trying.way.length - 1);
@@ -102,6 +103,12 @@ function pressed(event: KeyboardEvent<HTMLElement>, trying: Trying): void {
   else return;
   event.preventDefault();
   event.stopPropagation();
+}
+
+/** 1 to 9, also where the row of digits types others without Shift (French: &, é, "). */
+function digitOf({ key, code }: KeyboardEvent): number | null {
+  const typed = /^[1-9]$/.exec(key)?.[0] ?? /^Digit([1-9])$/.exec(code)?.[1];
+  return typed === undefined ? null : Number(typed);
 }
 
 function move(frame: HTMLElement, by: number): void {

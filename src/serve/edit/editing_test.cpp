@@ -311,6 +311,30 @@ TEST_F(EditTest, NewFilesNeedTheirEndingAndAFreeName) {
                 StartsWith("failed: a.aesl: there is such a file already"));
 }
 
+TEST_F(EditTest, TestsFollowTheirPlanAndWorldsTheProjectsOfTheirRobots) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\", \"plan\": \"P.plan.json\" }\n");
+    write("P.plan.json", "{}\n");
+    write("tests/P.test.json",
+          "{ \"format\": \"vagus-test/1\", \"plan\": \"../P.plan.json\",\n"
+          "\"world\": \"../w.world.json\", \"toolboxes\": [\"../t.toolbox.json\"] }\n");
+    write("t.toolbox.json", "{}\n");
+    write("picker/vagus.json", "{}\n");
+    write("w.world.json",
+          "{ \"format\": \"vagus-world/1\", \"size\": [1, 1],\n"
+          "\"robots\": [{ \"name\": \"r\", \"type\": \"carbot\", \"project\": \"picker/\" }] }\n");
+    enter({.plan = "P.plan.json", .world = "w.world.json", .project_file = "vagus.json"});
+    const Json plan = ask("file.rename", {{"path", "P.plan.json"}, {"to", "Q.plan.json"}});
+    EXPECT_EQ(plan["followed"], Json({"tests/P.test.json", "vagus.json"}));
+    EXPECT_EQ(on_disk("tests/P.test.json"),
+              "{ \"format\": \"vagus-test/1\", \"plan\": \"../Q.plan.json\",\n"
+              "\"world\": \"../w.world.json\", \"toolboxes\": [\"../t.toolbox.json\"] }\n");
+    const Json box = ask("file.rename", {{"path", "t.toolbox.json"}, {"to", "u.toolbox.json"}});
+    EXPECT_EQ(box["followed"], Json({"tests/P.test.json"}));
+    const Json folder = ask("file.rename", {{"path", "picker"}, {"to", "robots/picker"}});
+    EXPECT_EQ(folder["followed"], Json({"w.world.json"}));
+    EXPECT_THAT(on_disk("w.world.json"), HasSubstr("\"project\": \"robots/picker/\""));
+}
+
 TEST_F(EditTest, WhatNamesAFileFollowsItsRenaming) {
     write("vagus.json",
           "{ \"format\": \"vagus-project/1\", \"plan\":\"plans/P.plan.json\",\n"

@@ -84,7 +84,7 @@ void check_named(const Subject& subject) {
     for (const NamedPath& named : named_paths(subject.path, subject.text)) {
         const std::string path = path_from(subject.path, named.text);
         const bool inside = check_path(path).ok();
-        if (inside && subject.files.exists(path)) continue;
+        if (inside && (named.folder || subject.files.exists(path))) continue;
         DocFinding finding{subject.path, Severity::Error, "named_file", {},
                            named.place,  named.place,     {},           {}};
         finding.end = end_of_word(subject.text, named.place);

@@ -233,7 +233,7 @@ std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
     std::vector<Follower> found;
     bool more = false;
     for (const FileInfo& file : files_.list(more)) {
-        if (ending_of(file.kind).empty() && file.kind != "project") continue;
+        if (!may_name_others(file.path)) continue;
         if (file.size > kTextBytesMax) continue;
         const auto text = files_.text(file.path);
         if (!text.ok()) continue;

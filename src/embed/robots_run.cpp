@@ -1,6 +1,7 @@
 #include "embed/robots_run.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 #include "embed/robot_plan.hpp"
@@ -85,7 +86,9 @@ Status RobotsRun::add_plan(RobotBus& robot) {
 Status RobotsRun::start() {
     if (!has_projects()) return Status::done();
     (void)buses_->settle();
-    fleet_ = std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_);
+    // Plans of the run before ask their fleet a last time as their code is ended.
+    const auto last = std::exchange(
+        fleet_, std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_));
     if (watcher_ != nullptr) fleet_->watch();
     for (size_t i = 0; i < plans_.size(); ++i) {
         const RobotBus& robot = buses_->robots()[i];
@@ -255,7 +258,7 @@ void RobotsRun::end() {
     while (std::any_of(plans_.begin(), plans_.end(), running) && buses_->now() < latest) {
         instant();
     }
-    if (door_) fleet_.reset();  // its members say that they go
+    if (fleet_) fleet_->leave();
 }
 
 Status RobotsRun::restart() {

@@ -27,7 +27,11 @@ WorldFleet::WorldFleet(const sim::WorldDefinition& world, uint64_t seed, std::op
       by_id_(world.robots.size(), nullptr) {}
 
 WorldFleet::~WorldFleet() {
-    if (!door_) return;
+    leave();
+}
+
+void WorldFleet::leave() {
+    if (!door_ || std::exchange(left_, true)) return;
     for (const auto& robot : robots_) {
         robot->member.leave();
         perform(*robot);
@@ -70,8 +74,8 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
     } else {
         one->modelled = &broker_.add(options.fleet, std::move(will));
         broker_.connect(*one->modelled);
-        if (asks) let_ask(*one, options);
     }
+    if (asks) TRY(let_ask(*one, options));
     by_id_[robot.id.number - 1] = one.get();
     robots_.push_back(std::move(one));
     return Status::done();
@@ -98,19 +102,27 @@ toolbox::Fleet* WorldFleet::asked_by(sim::RobotId robot) {
 }
 
 void WorldFleet::pass(Time now) {
+    if (left_) return;
     broker_.pass(now);
     run_timeline(now);
     for (Keeper& keeper : keepers_) turn(keeper, now);
     for (const auto& robot : robots_) turn(*robot, now);
 }
 
-void WorldFleet::let_ask(Robot& robot, const fleet::MemberOptions& options) {
+// At a real broker as another client, whose keeper is a process of its own.
+Status WorldFleet::let_ask(Robot& robot, fleet::MemberOptions options) {
     robot.asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
         .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
     if (watched_) robot.asks->tell_more(robot.ears.asked);
-    robot.asks_way = &broker_.add(options.fleet, {});
-    broker_.connect(*robot.asks_way);
+    if (door_) {
+        options.instance += "-plan";
+        robot.asks_real = TRY(door_->connect(options, {}));
+        return Status::done();
+    }
+    robot.asks_modelled = &broker_.add(options.fleet, {});
+    broker_.connect(*robot.asks_modelled);
     add_keeper(options.fleet);
+    return Status::done();
 }
 
 // ---- the keepers ----
@@ -173,18 +185,24 @@ void WorldFleet::tell_reply(const Keeper& keeper, const fleet::Post& post) const
 
 // ---- the robots ----
 
-// What its plan asks.
-void WorldFleet::ask(Robot& robot, Time now) {
+// What its plan asks. At a real broker only while the name is the member's: of two robots of one
+// name the one that stays out takes no tasks. What is not sent now is asked again.
+void WorldFleet::ask(Robot& robot, Time at) {
+    const Time now = door_ ? door_->now() : at;
     MemberFleet& asks = *robot.asks;
-    if (robot.asks_way->has_news()) {
-        for (const fleet::LinkEvent& event : robot.asks_way->take()) {
-            const bool connected = std::holds_alternative<fleet::Connected>(event);
-            if (connected) robot.asks_way->subscribe(asks.filters());
+    fleet::Link& way = robot.asks_way();
+    if (robot.asks_modelled == nullptr || robot.asks_modelled->has_news()) {
+        for (const fleet::LinkEvent& event : way.take()) {
+            if (std::holds_alternative<fleet::Connected>(event)) way.subscribe(asks.filters());
             asks.hear(event, now);
         }
     }
     asks.tick(now);
-    for (const fleet::Post& post : asks.take()) robot.asks_way->publish(post);
+    const bool has_name =
+        !robot.asks_real || robot.member.standing() == fleet::Member::Standing::Holding;
+    for (const fleet::Post& post : asks.take()) {
+        if (has_name) way.publish(post);
+    }
     for (MemberFleet::Told& told : asks.take_told()) {
         robot.member.changed("plan", told.name, std::move(told.values));
     }
@@ -206,7 +224,7 @@ void WorldFleet::act(const sim::CutFleet& action) {
     for (const auto& robot : robots_) {
         if (robot->modelled == nullptr) continue;
         if (!action.robot.empty() && robot->name != action.robot) continue;
-        for (fleet::ModelledBroker::Way* const way : {robot->modelled, robot->asks_way}) {
+        for (fleet::ModelledBroker::Way* const way : {robot->modelled, robot->asks_modelled}) {
             if (way == nullptr) continue;
             action.cut ? broker_.cut(*way) : broker_.restore(*way);
         }

@@ -57,12 +57,16 @@ public:
         std::function<Result<std::unique_ptr<fleet::Link>>(const fleet::MemberOptions& member,
                                                            fleet::Post will)>
             connect = {};
+        // Of the wall: leases end also while a world is paused.
+        std::function<Time()> now = {};
     };
 
     // The definition is borrowed.
     WorldFleet(const sim::WorldDefinition& world, uint64_t seed, std::optional<Door> door = {});
-    // Members at a real broker say that they go.
+    // As leave().
     ~WorldFleet();
+    // Members at a real broker say that they go, and nothing passes there any more.
+    void leave();
 
     // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
     // With `asks`, its plan asks the fleet: asked_by().
@@ -73,8 +77,7 @@ public:
         uint32_t frame = 0;  // its number, where frames have one
     };
     void emitted(sim::RobotId robot, const Emission& event, Time now);
-    // What the plan of a robot asks; nullptr: it is in no fleet, or at a real broker, or was not
-    // to ask.
+    // What the plan of a robot asks; nullptr: it is in no fleet, or was not to ask.
     toolbox::Fleet* asked_by(sim::RobotId robot);
     // Before join(): ears are also told what `vagus why` needs.
     void watch() { watched_ = true; }
@@ -94,11 +97,15 @@ private:
         std::vector<fleet::Tells> tell = {};
         SentToFleet sent = {};
         Time show_at = {};
-        std::vector<fleet::Command> stopping = {};  // to be answered at rest
-        std::unique_ptr<MemberFleet> asks = {};     // with a way of its own
-        fleet::ModelledBroker::Way* asks_way = nullptr;
+        std::vector<fleet::Command> stopping = {};            // to be answered at rest
+        std::unique_ptr<MemberFleet> asks = {};               // with a way of its own
+        fleet::ModelledBroker::Way* asks_modelled = nullptr;  // or `asks_real`
+        std::unique_ptr<fleet::Link> asks_real = {};
 
         fleet::Link& way() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
+        fleet::Link& asks_way() {
+            return asks_modelled ? static_cast<fleet::Link&>(*asks_modelled) : *asks_real;
+        }
     };
     // Of one fleet, as a process of its own would be.
     struct Keeper {
@@ -111,12 +118,12 @@ private:
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
     void act(const sim::RunKeeper& action);
-    void let_ask(Robot& robot, const fleet::MemberOptions& options);
+    Status let_ask(Robot& robot, fleet::MemberOptions options);
     void add_keeper(const std::string& fleet);
     void start(Keeper& keeper);
     void turn(Keeper& keeper, Time now);
     void tell_reply(const Keeper& keeper, const fleet::Post& post) const;
-    static void ask(Robot& robot, Time now);
+    void ask(Robot& robot, Time at);
     void turn(Robot& robot, Time now);
     void show(Robot& robot, Time now);
     void obey(Robot& robot, const fleet::Command& command);
@@ -130,6 +137,7 @@ private:
     std::vector<Keeper> keepers_;  // in the order in which their fleets were named
     uint64_t keepers_started_ = 0;
     bool watched_ = false;
+    bool left_ = false;
     std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
     size_t timeline_next_ = 0;
 };

@@ -143,6 +143,31 @@ class Plans(Case):
         shared = json.loads(self.records("shared/done").wait_line(r"^\{.*\}$").group())
         self.assertEqual(shared["value"], str(TASKS))
 
+    def test_simulated_robots_share_tasks_with_one_that_serves_itself(self):
+        """Two robots of a world, each with a bus and a plan of its own, and a third one; another keeper comes in the middle."""
+        names = ("r1", "r2", "r3")
+        self.init(*names)
+        self.serve_broker("--fleet", "other")
+        keeper = self.keep()
+        watch = self.watch()
+        self.worker("r3", len(names))
+        folder = self.folder / "world"
+        projects.write(folder, "one/vagus.json", {"format": "vagus-project/1", "name": "Work", "plan": "Work.plan.json",
+                                                  "scripts": ["robot.aesl"], "fleet": PART})
+        projects.write(folder, "one/robot.aesl", AESL.format(script=SCRIPT))
+        projects.write(folder, "one/Work.plan.json", plan(len(names)))
+        robots = [{"name": name, "type": "thymio2", "at": [0.5 + i, 0.5], "project": "one/"} for i, name in enumerate(names[:2])]
+        world = projects.write(folder, "w.world.json", {"format": "vagus-world/1", "size": [3, 1], "robots": robots})
+        sim = self.enterContext(vagus("sim", world, "--headless", "--fleet", self.target, "--tls-ca", self.broker_folder / "ca.crt",
+                                      "--logins", self.broker_folder))
+        sim.wait_lines(r'fleet: this robot is "r1"', r'fleet: this robot is "r2"')
+        self.wait_finished(3)
+        keeper.kill()
+        self.keep()
+        self.wait_finished(TASKS)
+        watch.wait_lines(*(rf"^{name}: plan\.finished = \d+$" for name in names))
+        self.assertIn("3 of 3 robots: stopped", self.do("stop", "all"))
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *(f"-k{name}" for name in sys.argv[1:])], verbosity=2, warnings="ignore")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "fleet/topic.hpp"
@@ -32,6 +33,10 @@ Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const s
         std::make_unique<serve::MosquittoLink>(std::move(link), [] {}));
 }
 
+Time wall_now() {
+    return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
+}
+
 }  // namespace
 
 Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptions& options) {
@@ -41,8 +46,10 @@ Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptio
                          const fleet::MemberOptions& member, fleet::Post will) {
         return connect(broker, logins, member, std::move(will));
     };
-    return std::optional(session::WorldFleet::Door{
-        .fleet = target.fleet, .instance_and_epoch = serve::member_identity, .connect = way});
+    return std::optional(session::WorldFleet::Door{.fleet = target.fleet,
+                                                   .instance_and_epoch = serve::member_identity,
+                                                   .connect = way,
+                                                   .now = wall_now});
 }
 
 }  // namespace vagus::cli

@@ -228,6 +228,10 @@ private:
         const bool in_world = prepared_->world() != nullptr;
         if (in_world && !fleet_) {
             recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
+        } else if (in_world && !order.recording.empty()) {
+            teller_.line(talk::LineKind::Note,
+                         "this run is not recorded: its plan asks the fleet, and what other robots "
+                         "say cannot be run again");
         }
         plan_.begin(plan, order.plan, in_world ? PlanRunner::On::World : PlanRunner::On::Bus);
         in_world ? run_in_world(order) : run_on_bus(session::stop_events(library.templates()));

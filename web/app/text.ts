@@ -215,6 +215,7 @@ export const text = {
     elsewhere: 'Click into the drawing first.',
     of: {
       'run.pause': 'Nothing is running.',
+      'tests.stop': 'No tests are running.',
       'run.step': 'Nothing is paused. Pause first (F8).',
       'run.reset': 'Only a simulation can go back to its start.',
       'run.end': 'The run answers. Stop ends it.',

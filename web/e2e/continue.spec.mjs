@@ -217,6 +217,8 @@ test('a run before this one is opened from the timeline, by keys', wall, async (
   assert.equal(await runs.count(), 1, 'not the one that is there');
   await press('ArrowDown', 'Enter');
   await until('the first run is there, at its end', async () => (await clock(page)) === first);
+  // Its past comes after its clock.
+  await seen(slider(page).locator('text', { hasText: 'searchFirstWall' }));
   await press('Alt+F10');
   await seen(bar(page));
   await reads(page.locator('.pactive'), /searchFirstWall/);

@@ -29,7 +29,9 @@ export function testCommands(studio: Studio): Command[] {
       id: 'tests.stop',
       title: 'Stop running tests',
       group,
-      enabled: () => drives(studio),
+      // Where nobody follows them they may be running.
+      enabled: () =>
+        drives(studio) && (studio.topics.get('tests', {})?.state ?? 'running') === 'running',
       run: () => stopTests(studio),
     },
   ];

@@ -32,7 +32,7 @@ namespace vagus::record {
 
 constexpr size_t kDropFrom = 64u << 20;     // bytes that wait
 constexpr size_t kWaitingMax = 256u << 20;  // the same
-constexpr size_t kWakeAt = 256u << 10;      // the thread begins earlier than it must
+constexpr size_t kWakeAt = 64u << 10;       // the thread begins then: little is lost with a run
 constexpr std::chrono::milliseconds kFlushEvery{1000};
 
 enum class Pace { NeverWaits, Waits };

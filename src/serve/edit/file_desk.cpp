@@ -239,11 +239,14 @@ std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
         if (!text.ok()) continue;
         Follower follower{moved(file.path, from, to), {}};
         for (const NamedPath& named : named_paths(file.path, text.value())) {
-            const std::string before = path_from(file.path, named.text);
+            // A folder may be named with a slash behind it, and keeps it.
+            const std::string slash = named.folder && named.text.ends_with('/') ? "/" : "";
+            std::string before = path_from(file.path, named.text);
+            before.resize(before.size() - (before.ends_with('/') ? slash.size() : 0));
             const std::string after = moved(before, from, to);
             const bool same = before == after && follower.path == file.path;
             if (same || !check_path(before).ok()) continue;
-            const std::string name = name_from(follower.path, after);
+            const std::string name = name_from(follower.path, after) + slash;
             if (name == named.text) continue;
             follower.steps.push_back({JsonStep::Do::Set, named.at, json_string(name)});
         }

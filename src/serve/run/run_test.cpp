@@ -178,8 +178,8 @@ TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
 TEST_F(RunTest, AProcessThatSpeaksNonsenseIsEnded) {
     const Packet clock_of_another = talk::encode(talk::News(clock(1)));
     const std::pair<Packet, const char*> nonsense[] = {
-        {{'J', R"({"say": "clock"})"}, "sent a message: expected one of the numbers 1 to 21"},
-        {{'\0', ""}, "sent a message: expected one of the numbers 1 to 21, found 0"},
+        {{'J', R"({"say": "clock"})"}, "sent a message: expected one of the numbers 1 to 22"},
+        {{'\0', ""}, "sent a message: expected one of the numbers 1 to 22, found 0"},
         {{clock_of_another.kind, ""}, "sent clock.t: expected this field, found its end"},
         {{clock_of_another.kind, clock_of_another.bytes + "x"},
          "sent clock: expected its end, found 1 bytes more"},

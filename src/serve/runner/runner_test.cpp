@@ -141,7 +141,7 @@ TEST_F(RunnerTest, AServerThatSpeaksNonsenseIsLeft) {
     wait_end();
     EXPECT_EQ(leave(), kExitNonsense);
     EXPECT_EQ(ended.why,
-              "the studio sent a message: expected one of the numbers 1 to 23, found 74; this run "
+              "the studio sent a message: expected one of the numbers 1 to 24, found 74; this run "
               "is ended");
 }
 

@@ -111,7 +111,7 @@ ONE_DOOR = [
     (re.compile(r"^(mosquitto|mqtt_protocol)\.h$"), ("src/serve/broker/",), "MQTT is spoken in serve/broker only"),
     (re.compile(r"^iostream$"), ("src/cli/",), "libraries give values; only cli prints"),
 ]
-CLOCKS = re.compile(r"\b(steady_clock|system_clock|high_resolution_clock|gettimeofday|clock_gettime)\b")
+CLOCKS = re.compile(r"\b(wall_now|steady_clock|system_clock|high_resolution_clock|gettimeofday|clock_gettime)\b")
 MAY_TELL_TIME = ("src/net/", "src/cli/", "src/run/real_time_parts.hpp", "src/serve/runner/runner.cpp", "src/serve/workbench/door.cpp",
                 "src/serve/broker/")
 
@@ -360,6 +360,7 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/hub/a.cpp", "x" * 101 + "\n", "101 columns"),
     ("src/hub/a.cpp", "\n" * 602, "602 lines"),
     ("src/hub/a.cpp", "auto t = std::chrono::steady_clock::now();\n", "a clock below the rim"),
+    ("src/hub/a.cpp", "auto t = net::wall_now();\n", "a clock below the rim"),
     ("src/hub/a_test.cpp", "std::this_thread::sleep_for(1s);\n", "a sleep"),
     ("src/hub/a.cpp", "// TO" + "DO: later\n", "unfinished"),
     ("src/hub/a.cpp", 'say("start it anew");\n', '"anew" in a sentence'),

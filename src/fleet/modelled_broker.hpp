@@ -136,7 +136,7 @@ private:
     std::optional<Time> cut_since_;
     std::vector<Packet> held_;        // due while it was cut
     std::optional<Time> away_since_;  // its connection is lost, the broker still knows it
-    std::vector<Packet> kept_;        // what has come for it since
+    std::vector<Packet> kept_;        // messages that wait for it
     Time last_up_{}, last_down_{};    // when what was sent last arrives
     std::vector<Filter> filters_;     // as the broker knows them
     std::vector<LinkEvent> inbox_;

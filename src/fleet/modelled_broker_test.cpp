@@ -27,6 +27,12 @@ public:
         broker_.connect(*robots_.back()->way);
         return robots_.size() - 1;
     }
+    // "r1" and "r2", and what is said as they join has passed.
+    void add_two() {
+        add("r1");
+        add("r2");
+        pass(100ms);
+    }
     void pass(Duration span) {
         for (const Time end = now_ + span; now_ < end;) {
             now_ += 1ms;
@@ -114,9 +120,7 @@ TEST(ModelledBroker, WhatIsLostComesLaterInItsOrderAndWhatComesTwiceIsHeardOnce)
 
 TEST(ModelledBroker, AShortCutDelaysAndLosesNothing) {
     Class all({.latency = 5ms});
-    all.add("r1");
-    all.add("r2");
-    all.pass(100ms);
+    all.add_two();
     all.cut(1);
     all.emit(0, 1);
     all.pass(kMissedAfter - 1ms);
@@ -129,9 +133,7 @@ TEST(ModelledBroker, AShortCutDelaysAndLosesNothing) {
 
 TEST(ModelledBroker, ALongCutEndsTheConnectionAndTheRobotStopsAlone) {
     Class all({.latency = 5ms});
-    all.add("r1");
-    all.add("r2");
-    all.pass(100ms);
+    all.add_two();
     all.cut(1);
     all.pass(kMissedAfter);
     EXPECT_EQ(all.standing(1), Member::Standing::Apart);
@@ -153,9 +155,7 @@ TEST(ModelledBroker, ALongCutEndsTheConnectionAndTheRobotStopsAlone) {
 // broker has missed the robot. Both wait there for ten seconds, and no longer.
 TEST(ModelledBroker, WhatComesForARobotThatIsAwayWaitsTenSeconds) {
     Class all({.latency = 5ms});
-    all.add("r1");
-    all.add("r2");
-    all.pass(100ms);
+    all.add_two();
     all.emit(0, 1);
     all.cut(1);
     all.pass(kMissedAfter);
@@ -172,9 +172,7 @@ TEST(ModelledBroker, WhatComesForARobotThatIsAwayWaitsTenSeconds) {
 // It is 11 s old when the robot is back; the connection was lost only 3.5 s before.
 TEST(ModelledBroker, AnEventThatIsTooOldIsNotPassedOn) {
     Class all({.latency = 5ms});
-    all.add("r1");
-    all.add("r2");
-    all.pass(100ms);
+    all.add_two();
     all.emit(0, 1);
     all.cut(1);
     all.pass(11s);
@@ -187,9 +185,7 @@ TEST(ModelledBroker, AnEventThatIsTooOldIsNotPassedOn) {
 // What the robot itself said while it was apart is said when it is back (Outbox).
 TEST(ModelledBroker, WhatARobotSaidApartComesWhenItIsBack) {
     Class all({.latency = 5ms});
-    all.add("r1");
-    all.add("r2");
-    all.pass(100ms);
+    all.add_two();
     all.cut(0);
     all.pass(kMissedAfter);
     all.emit(0, 3);

@@ -13,12 +13,14 @@
 
 namespace vagus::record {
 
-void append_frame(std::string& to, const PassedFrame& passed) {
+std::string_view format_frame(std::string& room, const PassedFrame& passed) {
+    room.clear();
     std::array<uint8_t, wire::kFrameMax> bytes;
     const uint16_t size = wire::encode(passed.frame, bytes.data());
-    mcap::Put put(to);
+    mcap::Put put(room);
     put.u32(passed.number).u32(passed.cause).u16(passed.frame.source);
     put.bytes({reinterpret_cast<const char*>(bytes.data()), size});
+    return room;
 }
 
 std::optional<RecordedFrame> read_frame(std::string_view data) {
@@ -64,22 +66,23 @@ void append_words(std::string& to, std::span<const int16_t> words) {
 
 }  // namespace
 
-void append_event(std::string& to, const RecordedEvent& event) {
-    to += R"({"t":)";
-    append_seconds(to, event.at);
-    to += R"(,"frame":)";
-    append_number(to, event.frame);
-    to += R"(,"node":)";
-    append_number(to, event.node);
-    to += R"(,"name":)";
-    append_json_quote(to, event.name);
-    to += R"(,"args":)";
-    append_words(to, event.arguments);
+std::string_view format_event(std::string& room, const RecordedEvent& event) {
+    room = R"({"t":)";
+    append_seconds(room, event.at);
+    room += R"(,"frame":)";
+    append_number(room, event.frame);
+    room += R"(,"node":)";
+    append_number(room, event.node);
+    room += R"(,"name":)";
+    append_json_quote(room, event.name);
+    room += R"(,"args":)";
+    append_words(room, event.arguments);
     if (!event.by.empty()) {
-        to += R"(,"by":)";
-        append_json_quote(to, event.by);
+        room += R"(,"by":)";
+        append_json_quote(room, event.by);
     }
-    to += '}';
+    room += '}';
+    return room;
 }
 
 RecordedVariable::RecordedVariable(std::string_view name, uint16_t address_of, uint16_t size_of)
@@ -93,6 +96,14 @@ bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
 
 }  // namespace
 
+WordRange changed_words(std::span<const int16_t> before, std::span<const int16_t> now) {
+    const auto first = std::ranges::mismatch(before, now).in1;
+    auto last = before.end();
+    for (auto other = now.end(); last != first && last[-1] == other[-1]; --last) --other;
+    return {static_cast<size_t>(first - before.begin()),
+            static_cast<size_t>(last - before.begin())};
+}
+
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
                  std::span<const int16_t> now) {
     if (!is_in(variable, before) || !is_in(variable, now)) return false;
@@ -100,23 +111,24 @@ bool has_changed(const RecordedVariable& variable, std::span<const int16_t> befo
                                now.subspan(variable.address, variable.size));
 }
 
-void append_variables(std::string& to, const ToldVariables& told) {
-    to += R"({"t":)";
-    append_seconds(to, told.at);
-    to += told.all ? R"(,"all":true,"set":{)" : R"(,"all":false,"set":{)";
+std::string_view format_variables(std::string& room, const ToldVariables& told) {
+    room = R"({"t":)";
+    append_seconds(room, told.at);
+    room += told.all ? R"(,"all":true,"set":{)" : R"(,"all":false,"set":{)";
     bool first = true;
     for (const RecordedVariable* const one : told.variables) {
         if (!is_in(*one, told.now)) continue;
-        if (!std::exchange(first, false)) to += ',';
-        to += one->key;
+        if (!std::exchange(first, false)) room += ',';
+        room += one->key;
         const std::span<const int16_t> words = told.now.subspan(one->address, one->size);
         if (one->size == 1) {
-            append_number(to, words.front());
+            append_number(room, words.front());
         } else {
-            append_words(to, words);
+            append_words(room, words);
         }
     }
-    to += "}}";
+    room += "}}";
+    return room;
 }
 
 }  // namespace vagus::record

@@ -1,7 +1,6 @@
 // How a frame, an event and the variables of a node are written in a recording, and read again.
 //
-//     append_frame(text, {.number = 7, .frame = frame});
-//     tape.put(frames, at, text);
+//     tape.put(frames, at, format_frame(text, {.number = 7, .frame = frame}));
 //     const auto recorded = read_frame(message.data);             // nothing: it is none
 #pragma once
 
@@ -18,6 +17,9 @@
 
 namespace vagus::record {
 
+// What is formatted takes the place of what is in `room`, and is that text: a run makes a thousand
+// a second, and they all share one.
+
 struct RecordedFrame {
     uint32_t number = 0;
     uint32_t cause = 0;  // the frame that it followed from; 0: none, or nobody knows
@@ -29,7 +31,7 @@ struct PassedFrame {
     uint32_t cause = 0;
     const wire::Frame& frame;
 };
-void append_frame(std::string& to, const PassedFrame& passed);
+std::string_view format_frame(std::string& room, const PassedFrame& passed);
 std::optional<RecordedFrame> read_frame(std::string_view data);
 
 struct RecordedEvent {
@@ -42,7 +44,7 @@ struct RecordedEvent {
 };
 // Decoded once, for all that write and read recordings. `number` is that of its frame.
 RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::UserEvent event);
-void append_event(std::string& to, const RecordedEvent& event);
+std::string_view format_event(std::string& room, const RecordedEvent& event);
 
 struct RecordedVariable {
     RecordedVariable(std::string_view name, uint16_t address, uint16_t size);
@@ -51,6 +53,15 @@ struct RecordedVariable {
     uint16_t size = 0;
 };
 using RecordedVariables = std::vector<RecordedVariable>;
+// Words of a node, from one to another.
+struct WordRange {
+    size_t begin = 0, end = 0;
+    bool touches(const RecordedVariable& one) const {
+        return one.address < end && size_t{one.address} + one.size > begin;
+    }
+};
+// From the first that is another than before to the last; there are as many as before.
+WordRange changed_words(std::span<const int16_t> before, std::span<const int16_t> now);
 // Whether it is in both, and not the same.
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
                  std::span<const int16_t> now);
@@ -61,6 +72,6 @@ struct ToldVariables {
     bool all = false;
     Time at{};
 };
-void append_variables(std::string& to, const ToldVariables& told);
+std::string_view format_variables(std::string& room, const ToldVariables& told);
 
 }  // namespace vagus::record

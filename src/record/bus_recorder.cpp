@@ -63,16 +63,12 @@ void BusRecorder::happened(Time at, const debug::Event& event) {
 uint32_t BusRecorder::frame(Time at, const Passed& passed) {
     const wire::Frame& frame = passed.frame;
     const uint32_t number = ++last_;
-    text_.clear();
-    append_frame(text_, {number, passed.cause, frame});
-    tape_.put(frames_, at, text_);
+    tape_.put(frames_, at, format_frame(text_, {number, passed.cause, frame}));
     if (wire::is_user_event(frame.type)) {
         RecordedEvent event =
             recorded_event(at, number, frame.source, debug::user_event_of(frame, common_));
         event.by = passed.by;
-        text_.clear();
-        append_event(text_, event);
-        tape_.put(events_, at, text_);
+        tape_.put(events_, at, format_event(text_, event));
     } else if (frame.type == static_cast<uint16_t>(wire::MessageType::Variables)) {
         variables(at, frame);
     }
@@ -101,8 +97,7 @@ void BusRecorder::variables(Time at, const wire::Frame& frame) {
     std::vector<const RecordedVariable*> told;
     std::vector<const RecordedVariable*> changed;
     for (const RecordedVariable& one : node.variables) {
-        const bool touched = one.address < end && size_t{one.address} + one.size > begin;
-        if (!touched || !is_known(one, node.known)) continue;
+        if (!WordRange{begin, end}.touches(one) || !is_known(one, node.known)) continue;
         if (!is_known(one, was_known)) {
             told.push_back(&one);
         } else if (has_changed(one, before, node.words)) {
@@ -112,9 +107,7 @@ void BusRecorder::variables(Time at, const wire::Frame& frame) {
     told.insert(told.end(), changed.begin(), changed.end());
     if (told.empty()) return;
     const bool all = told.size() == node.variables.size();
-    text_.clear();
-    append_variables(text_, {told, node.words, all, at});
-    tape_.put(node.topic, at, text_);
+    tape_.put(node.topic, at, format_variables(text_, {told, node.words, all, at}));
 }
 
 }  // namespace vagus::record

@@ -118,7 +118,7 @@ TEST_F(BusInMemory, FramesAreReadAsTheyWereAndEventsKnowWhoSentThem) {
 
 TEST(BusMessages, BytesThatAreNoFrameAreNone) {
     std::string whole;
-    append_frame(whole, {1, 0, frame_of(3, 1, {5})});
+    (void)format_frame(whole, {1, 0, frame_of(3, 1, {5})});
     ASSERT_TRUE(read_frame(whole));
     for (size_t size = 0; size < whole.size(); ++size) {
         EXPECT_FALSE(read_frame(std::string_view(whole).substr(0, size))) << size;

@@ -120,8 +120,11 @@ void CompareTape::put(uint16_t topic, Time at, std::string_view data) {
     if (!recorded || recorded->at != at) {
         const bool later = !recorded || recorded->at > at;
         found.at = later ? at : recorded->at;
-        if (later) found.now = data;
-        if (!later) found.then = recorded->data;
+        if (later) {
+            found.now = data;
+        } else {
+            found.then = recorded->data;
+        }
     } else {
         found.at = at;
     }

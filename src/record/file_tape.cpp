@@ -90,6 +90,7 @@ std::unique_lock<std::mutex> FileTape::room_for(const Message& message) {
 void FileTape::keep(const Message& message) {
     const size_t before = waiting_bytes_;
     waiting_bytes_ += message.bytes;
+    waiting_.bytes += message.bytes;
     waiting_.messages.push_back(message);
     if (before < kWakeAt && waiting_bytes_ >= kWakeAt) more_.notify_one();
     if (waiting_bytes_ < kWaitingMax) return;
@@ -103,11 +104,13 @@ void FileTape::Waiting::clear() {
     text.clear();
     words.clear();
     files.clear();
+    bytes = 0;
 }
 
 void FileTape::work() {
     bool last = false;
     size_t known = 0;  // of the topics
+    Waiting taken;
     while (!last) {
         std::vector<Topic> declared;
         uint64_t flush = 0;
@@ -116,20 +119,20 @@ void FileTape::work() {
             more_.wait_for(lock, kFlushEvery, [this] {
                 return over_ || waiting_bytes_ >= kWakeAt || flush_wanted_ != flush_done_;
             });
-            std::swap(writing_now_, waiting_);
+            std::swap(taken, waiting_);
             last = over_;
             flush = flush_wanted_;
             declared.assign(topics_.begin() + static_cast<std::ptrdiff_t>(known), topics_.end());
         }
         known += declared.size();
-        write(declared, last);
-        writing_now_.clear();
+        write(taken, declared, last);
+        taken.clear();
         const std::lock_guard lock(mutex_);
         flush_done_ = flush;
     }
 }
 
-void FileTape::write(const std::vector<Topic>& declared, bool last) {
+void FileTape::write(const Waiting& waiting, const std::vector<Topic>& declared, bool last) {
     Status written = Status::done();
     {
         const std::lock_guard lock(writing_);
@@ -144,14 +147,12 @@ void FileTape::write(const std::vector<Topic>& declared, bool last) {
             }
             channels_.push_back(writer_.add_channel(std::move(channel)));
         }
-        write_all(writing_now_);
+        write_all(waiting);
         written = last ? writer_.end() : writer_.flush();
         bytes_ = writer_.bytes();
     }
-    size_t bytes = 0;
-    for (const Message& message : writing_now_.messages) bytes += message.bytes;
     const std::lock_guard lock(mutex_);
-    waiting_bytes_ -= bytes;
+    waiting_bytes_ -= waiting.bytes;
     if (state_.ok()) state_ = written;
     room_.notify_one();
 }

@@ -79,18 +79,18 @@ private:
         PieceText text;  // of all messages that have one
         std::vector<Word> words;
         std::vector<std::pair<std::string, std::string>> files;  // name, content
+        size_t bytes = 0;                                        // of all messages
         void clear();
     };
     // Locks for one message. Not owned: it is dropped, or the tape is over.
     std::unique_lock<std::mutex> room_for(const Message& message);
     void keep(const Message& message);
     void work();
-    void write(const std::vector<Topic>& declared, bool last);
+    void write(const Waiting& waiting, const std::vector<Topic>& declared, bool last);
     void write_all(const Waiting& waiting);
     void write_attachment(const std::string& name, std::string_view content);
 
     const Pace pace_;
-    Waiting writing_now_;  // of the thread
     std::atomic<uint64_t> bytes_ = 0;
     std::mutex writing_;  // guards the next two; held while the disk is waited for
     mcap::Writer writer_;

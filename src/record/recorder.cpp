@@ -40,23 +40,6 @@ std::string bytes_of(const sim::Pose& pose) {
     return bytes;
 }
 
-// From the first word that is another than before to the last.
-struct ChangedWords {
-    size_t begin = 0, end = 0;
-    bool touches(const RecordedVariable& one) const {
-        return one.address < end && size_t{one.address} + one.size > begin;
-    }
-};
-
-// Of as many words before as now.
-ChangedWords changed_words(std::span<const int16_t> before, std::span<const int16_t> now) {
-    const auto first = std::ranges::mismatch(before, now).in1;
-    auto last = before.end();
-    for (auto other = now.end(); last != first && last[-1] == other[-1]; --last) --other;
-    return {static_cast<size_t>(first - before.begin()),
-            static_cast<size_t>(last - before.begin())};
-}
-
 // ---- foxglove.CompressedImage ----
 
 std::string compressed_image(const sim::Picture& picture, const std::string& robot, Time at) {
@@ -168,14 +151,11 @@ void Recorder::follow_bus(session::SimSession& session) {
 void Recorder::instant() {
     const Time at = now();
     if (chaos_ != 0) chaos();
-    if (at >= samples_not_before_) samples(at);
+    if (at % kSamplesEvery == Duration::zero()) samples(at);
     if (after_instant_) after_instant_(at);
 }
 
 void Recorder::samples(Time at) {
-    const Duration since = at % kSamplesEvery;
-    samples_not_before_ = at - since + kSamplesEvery;
-    if (since != Duration::zero()) return;
     look_for_nodes();
     const bool all = at % kPictureEvery == Duration::zero();
     for (Node& node : nodes_) variables(node, at, all);
@@ -245,17 +225,14 @@ void Recorder::trace(const plan::TraceEvent& event) {
 void Recorder::frame(const wire::Frame& frame, uint32_t number) {
     const Time at = now();
     const uint32_t cause = session_->world().frame_numbers()->cause_of(number);
-    text_.clear();
-    append_frame(text_, {number, cause, frame});
-    tape_.put(frames_, at, text_);
+    tape_.put(frames_, at, format_frame(text_, {number, cause, frame}));
 }
 
 void Recorder::heard(const debug::Event& event) {
     const auto* const sent = std::get_if<debug::UserEvent>(&event.what);
     if (sent == nullptr) return;
-    text_.clear();
-    append_event(text_, recorded_event(now(), event.frame, event.node, *sent));
-    tape_.put(events_, now(), text_);
+    tape_.put(events_, now(),
+              format_event(text_, recorded_event(now(), event.frame, event.node, *sent)));
 }
 
 // ---- nodes ----
@@ -316,7 +293,7 @@ void Recorder::variables(Node& node, Time at, bool all) {
     const bool picture = all || !node.pictured || words.size() != node.words.size();
     // As bytes: nearly always nothing has changed.
     if (!picture && std::ranges::equal(words, node.words)) return;
-    const ChangedWords changed = picture ? ChangedWords{} : changed_words(node.words, words);
+    const WordRange changed = picture ? WordRange{} : changed_words(node.words, words);
     told_.clear();
     for (const RecordedVariable& one : node.variables) {
         if (picture || (changed.touches(one) && has_changed(one, node.words, words))) {
@@ -325,9 +302,7 @@ void Recorder::variables(Node& node, Time at, bool all) {
     }
     node.words.assign(words.begin(), words.end());
     node.pictured = true;
-    text_.clear();
-    append_variables(text_, {told_, words, picture, at});
-    tape_.put(node.topic, at, text_);
+    tape_.put(node.topic, at, format_variables(text_, {told_, words, picture, at}));
 }
 
 // ---- the world ----

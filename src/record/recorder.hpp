@@ -132,7 +132,6 @@ private:
     uint16_t scene_ = 0;
     uint16_t chaos_ = 0;       // 0: nothing breaks in this run
     hub::LinkId last_inside_;  // of the links of the bus that are part of the run
-    Time samples_not_before_{};
     uint32_t turn_ = 0;
     bool turn_begins_ = false;
     std::vector<Node> nodes_;

@@ -68,13 +68,7 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
                                              .name = robot.name,
                                              .ears = std::move(ears),
                                              .tell = robot.project.fleet.tell});
-    fleet::Post will = one->member.will();
-    if (door_) {
-        one->real = TRY(door_->connect(options, std::move(will)));
-    } else {
-        one->modelled = &broker_.add(options.fleet, std::move(will));
-        broker_.connect(*one->modelled);
-    }
+    one->way = TRY(connected(options, one->member.will()));
     if (asks) TRY(let_ask(*one, options));
     by_id_[robot.id.number - 1] = one.get();
     robots_.push_back(std::move(one));
@@ -109,19 +103,26 @@ void WorldFleet::pass(Time now) {
     for (const auto& robot : robots_) turn(*robot, now);
 }
 
+Result<WorldFleet::Way> WorldFleet::connected(const fleet::MemberOptions& options,
+                                              fleet::Post will) {
+    Way way;
+    if (door_) {
+        way.real = TRY(door_->connect(options, std::move(will)));
+    } else {
+        way.modelled = &broker_.add(options.fleet, std::move(will));
+        broker_.connect(*way.modelled);
+    }
+    return way;
+}
+
 // At a real broker as another client, whose keeper is a process of its own.
 Status WorldFleet::let_ask(Robot& robot, fleet::MemberOptions options) {
     robot.asks = std::make_unique<MemberFleet>(fleet::KeeperClient::Options{
         .fleet = options.fleet, .robot = options.robot, .epoch = options.epoch});
     if (watched_) robot.asks->tell_more(robot.ears.asked);
-    if (door_) {
-        options.instance += "-plan";
-        robot.asks_real = TRY(door_->connect(options, {}));
-        return Status::done();
-    }
-    robot.asks_modelled = &broker_.add(options.fleet, {});
-    broker_.connect(*robot.asks_modelled);
-    add_keeper(options.fleet);
+    if (door_) options.instance += "-plan";
+    robot.asks_way = TRY(connected(options, {}));
+    if (!door_) add_keeper(options.fleet);
     return Status::done();
 }
 
@@ -190,16 +191,15 @@ void WorldFleet::tell_reply(const Keeper& keeper, const fleet::Post& post) const
 void WorldFleet::ask(Robot& robot, Time at) {
     const Time now = door_ ? door_->now() : at;
     MemberFleet& asks = *robot.asks;
-    fleet::Link& way = robot.asks_way();
-    if (robot.asks_modelled == nullptr || robot.asks_modelled->has_news()) {
+    fleet::Link& way = robot.asks_way.link();
+    if (robot.asks_way.may_have_news()) {
         for (const fleet::LinkEvent& event : way.take()) {
             if (std::holds_alternative<fleet::Connected>(event)) way.subscribe(asks.filters());
             asks.hear(event, now);
         }
     }
     asks.tick(now);
-    const bool has_name =
-        !robot.asks_real || robot.member.standing() == fleet::Member::Standing::Holding;
+    const bool has_name = !door_ || robot.member.standing() == fleet::Member::Standing::Holding;
     for (const fleet::Post& post : asks.take()) {
         if (has_name) way.publish(post);
     }
@@ -221,10 +221,11 @@ void WorldFleet::run_timeline(Time now) {
 
 // A real way is cut by who has the cable.
 void WorldFleet::act(const sim::CutFleet& action) {
+    if (door_) return;
     for (const auto& robot : robots_) {
-        if (robot->modelled == nullptr) continue;
         if (!action.robot.empty() && robot->name != action.robot) continue;
-        for (fleet::ModelledBroker::Way* const way : {robot->modelled, robot->asks_modelled}) {
+        for (fleet::ModelledBroker::Way* const way :
+             {robot->way.modelled, robot->asks_way.modelled}) {
             if (way == nullptr) continue;
             action.cut ? broker_.cut(*way) : broker_.restore(*way);
         }
@@ -232,8 +233,8 @@ void WorldFleet::act(const sim::CutFleet& action) {
 }
 
 void WorldFleet::turn(Robot& robot, Time now) {
-    if (robot.modelled == nullptr || robot.modelled->has_news()) {
-        for (const fleet::LinkEvent& event : robot.way().take()) robot.member.hear(event, now);
+    if (robot.way.may_have_news()) {
+        for (const fleet::LinkEvent& event : robot.way.link().take()) robot.member.hear(event, now);
     }
     if (robot.asks) ask(robot, now);
     if (door_) show(robot, now);
@@ -272,9 +273,9 @@ void WorldFleet::obey(Robot& robot, const fleet::Command& command) {
 void WorldFleet::perform(Robot& robot) {
     for (const fleet::MemberAction& action : robot.member.take()) {
         if (const auto* filters = std::get_if<fleet::Subscribe>(&action)) {
-            robot.way().subscribe(filters->filters);
+            robot.way.link().subscribe(filters->filters);
         } else if (const auto* post = std::get_if<fleet::Post>(&action)) {
-            robot.way().publish(*post);
+            robot.way.link().publish(*post);
         } else if (const auto* event = std::get_if<fleet::EmitOnBus>(&action)) {
             robot.ears.hear(*event, frame_of(*event));
         } else if (const auto* stop = std::get_if<fleet::StopAlone>(&action)) {

@@ -88,24 +88,25 @@ public:
     void pass(Time now);
 
 private:
+    // The way to the broker, which is modelled or real.
+    struct Way {
+        fleet::ModelledBroker::Way* modelled = nullptr;
+        std::unique_ptr<fleet::Link> real = {};
+
+        fleet::Link& link() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
+        bool may_have_news() const { return modelled == nullptr || modelled->has_news(); }
+    };
     struct Robot {
         fleet::Member member;
-        fleet::ModelledBroker::Way* modelled = nullptr;  // or `real`
-        std::unique_ptr<fleet::Link> real = {};
+        Way way = {};
         std::string name = {};
         Ears ears = {};
         std::vector<fleet::Tells> tell = {};
         SentToFleet sent = {};
         Time show_at = {};
-        std::vector<fleet::Command> stopping = {};            // to be answered at rest
-        std::unique_ptr<MemberFleet> asks = {};               // with a way of its own
-        fleet::ModelledBroker::Way* asks_modelled = nullptr;  // or `asks_real`
-        std::unique_ptr<fleet::Link> asks_real = {};
-
-        fleet::Link& way() { return modelled ? static_cast<fleet::Link&>(*modelled) : *real; }
-        fleet::Link& asks_way() {
-            return asks_modelled ? static_cast<fleet::Link&>(*asks_modelled) : *asks_real;
-        }
+        std::vector<fleet::Command> stopping = {};  // to be answered at rest
+        std::unique_ptr<MemberFleet> asks = {};     // with a way of its own
+        Way asks_way = {};
     };
     // Of one fleet, as a process of its own would be.
     struct Keeper {
@@ -118,6 +119,7 @@ private:
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
     void act(const sim::RunKeeper& action);
+    Result<Way> connected(const fleet::MemberOptions& options, fleet::Post will);
     Status let_ask(Robot& robot, fleet::MemberOptions options);
     void add_keeper(const std::string& fleet);
     void start(Keeper& keeper);

@@ -6,6 +6,7 @@
 #include "cli/output.hpp"
 #include "fleet/keeping.hpp"
 #include "net/end_signal.hpp"
+#include "net/wall_clock.hpp"
 #include "serve/broker/bell.hpp"
 #include "serve/process.hpp"
 
@@ -16,11 +17,6 @@ using namespace std::chrono_literals;
 
 constexpr Duration kListenAgainAfter = 5s;  // for a keeper that was there
 constexpr size_t kInstanceBytes = 8;
-
-Duration now() {
-    return std::chrono::duration_cast<Duration>(
-        std::chrono::steady_clock::now().time_since_epoch());
-}
 
 // For a broker that has lost what it kept: later than every keeper before.
 uint64_t epoch_of_today() {
@@ -44,8 +40,9 @@ public:
     // Until it is out, or an end is asked for. What it says the first time is said.
     void keep(std::string& told_why) {
         while (!net::end_asked()) {
-            for (const fleet::LinkEvent& event : link_.take()) keeping_.hear(event, now());
-            keeping_.tick(now());
+            for (const fleet::LinkEvent& event : link_.take())
+                keeping_.hear(event, net::wall_now());
+            keeping_.tick(net::wall_now());
             for (const fleet::KeepingAction& action : keeping_.take()) {
                 std::visit([&](const auto& one) { perform(one, told_why); }, action);
             }
@@ -82,8 +79,8 @@ int keep(const serve::FleetOptions& broker) {
         if (!options.ok()) return complain(options.error(), kExitUsage);
         Post(std::move(options.value())).keep(told_why);
         serve::Bell nobody_rings;
-        for (const Duration until = now() + kListenAgainAfter;
-             now() < until && !net::end_asked();) {
+        for (const Duration until = net::wall_now() + kListenAgainAfter;
+             net::wall_now() < until && !net::end_asked();) {
             nobody_rings.wait(fleet::kKeeperTickEvery);
         }
     }

@@ -1,10 +1,10 @@
 #include "cli/fleet/session.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "cli/output.hpp"
 #include "net/end_signal.hpp"
+#include "net/wall_clock.hpp"
 
 namespace vagus::cli {
 namespace {
@@ -41,8 +41,7 @@ Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
 }
 
 Duration FleetSession::now() const {
-    return std::chrono::duration_cast<Duration>(
-        std::chrono::steady_clock::now().time_since_epoch());
+    return net::wall_now();
 }
 
 void FleetSession::turn() {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
 #include "fleet/topic.hpp"
+#include "net/wall_clock.hpp"
 #include "serve/broker/mosquitto_link.hpp"
 
 namespace vagus::cli {
@@ -33,10 +33,6 @@ Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const s
         std::make_unique<serve::MosquittoLink>(std::move(link), [] {}));
 }
 
-Time wall_now() {
-    return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
-}
-
 }  // namespace
 
 Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptions& options) {
@@ -49,7 +45,7 @@ Result<std::optional<session::WorldFleet::Door>> door_to_fleet(const SimRunOptio
     return std::optional(session::WorldFleet::Door{.fleet = target.fleet,
                                                    .instance_and_epoch = serve::member_identity,
                                                    .connect = way,
-                                                   .now = wall_now});
+                                                   .now = net::wall_now});
 }
 
 }  // namespace vagus::cli

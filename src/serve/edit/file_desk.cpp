@@ -241,8 +241,8 @@ std::vector<FileDesk::Follower> FileDesk::followers(const std::string& from,
         for (const NamedPath& named : named_paths(file.path, text.value())) {
             // A folder may be named with a slash behind it, and keeps it.
             const std::string slash = named.folder && named.text.ends_with('/') ? "/" : "";
-            std::string before = path_from(file.path, named.text);
-            before.resize(before.size() - (before.ends_with('/') ? slash.size() : 0));
+            const std::string bare = named.text.substr(0, named.text.size() - slash.size());
+            const std::string before = path_from(file.path, bare);
             const std::string after = moved(before, from, to);
             const bool same = before == after && follower.path == file.path;
             if (same || !check_path(before).ok()) continue;

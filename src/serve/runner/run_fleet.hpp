@@ -2,7 +2,7 @@
 // beside that of the member, which is in another process. It asks only while the broker says that
 // this member has the name; so of two robots of one name the one that stays out takes no tasks.
 //
-//     const auto fleet = TRY(RunFleet::open(member, order, wall_now));
+//     const auto fleet = TRY(RunFleet::open(member, order, clock));
 //     parts.fleet = fleet.get();
 //     if (fleet->turn()) prepared.hear({std::string(toolbox::kFleetNews), {}});
 //     for (const auto& told : fleet->take_told()) {

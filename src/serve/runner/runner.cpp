@@ -10,6 +10,7 @@
 #include "base/time.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
+#include "net/wall_clock.hpp"
 #include "serve/runner/bus_clock.hpp"
 #include "serve/runner/bus_run.hpp"
 #include "serve/runner/hand.hpp"
@@ -30,15 +31,13 @@ namespace vagus::serve {
 
 namespace {
 
+using net::wall_now;
+
 constexpr Duration kTellEvery = 100ms;  // the clock, and what is slow: documents, pictures
 constexpr Duration kPosesEvery = 33ms;  // where things are
 constexpr int kPausedWaitMs = 20;       // while paused nothing moves but messages
 constexpr int kAtOnceMs = 4;            // instants that are run together
 constexpr int kHoldsAfterFrames = 20;   // instants in which nodes answer although time is stopped
-
-Time wall_now() {
-    return std::chrono::duration_cast<Time>(std::chrono::steady_clock::now().time_since_epoch());
-}
 
 class Runner {
 public:

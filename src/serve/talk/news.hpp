@@ -361,7 +361,6 @@ struct HappenedNow {
     bool operator==(const HappenedNow&) const = default;
 };
 
-// All of them. Which one a packet holds is its place in this list.
 // A variable of its plan that it tells the fleet.
 struct ToldFleet {
     std::string name = {};
@@ -374,6 +373,7 @@ struct ToldFleet {
     bool operator==(const ToldFleet&) const = default;
 };
 
+// All of them. Which one a packet holds is its place in this list.
 using News = std::variant<Alive, Opening, Opened, OpenFailed, PlanVersion, Traced, PlanNow, HeldNow,
                           BreakpointsNow, PlanOver, Answer, Line, Clock, SceneNow, FrameSeen, Poses,
                           Rays, Picture, Records, HappenedNow, PictureThen, ToldFleet>;

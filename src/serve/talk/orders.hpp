@@ -413,7 +413,6 @@ struct FlushRecording {
     bool operator==(const FlushRecording&) const = default;
 };
 
-// All of them. Which one a packet holds is its place in this list.
 // An event of the fleet, for the plan: the bus has it, too.
 struct HearOfFleet {
     std::string event = {}, from = {};
@@ -427,6 +426,7 @@ struct HearOfFleet {
     bool operator==(const HearOfFleet&) const = default;
 };
 
+// All of them. Which one a packet holds is its place in this list.
 using Order =
     std::variant<Open, SetPace, LetTimePass, Show, StepPlan, StopPlan, HoldNodes, SetBreakpoints,
                  SetVariable, RaiseEvent, HandleHeld, ChangePlan, CheckPlan, MoveRobot, MoveObject,

@@ -35,6 +35,9 @@ void WorldFleet::leave() {
     for (const auto& robot : robots_) {
         robot->member.leave();
         perform(*robot);
+        // Closed in good order, so that no will is published.
+        robot->way.real.reset();
+        robot->asks_way.real.reset();
     }
 }
 

@@ -94,8 +94,7 @@ void Hub::send(Link& link, const wire::Frame& frame, std::span<uint8_t> encoded)
     }
     if (link.options.only_node && !std::exchange(link.is_reached, true))
         reached_.push_back(link.id);
-    link.queue.push(encoded);
-    ++link.frames_queued;
+    if (link.queue.push(encoded)) ++link.frames_queued;
     if (renamed) put_word(encoded.data() + wire::kHeaderSize, remap->local);
 }
 

@@ -78,7 +78,8 @@ std::string sentence(const SharedId& shared);
 
 struct LinkStats {
     uint64_t frames_received = 0;
-    uint64_t frames_queued = 0;  // for this link, dropped ones included
+    // For this link, dropped ones included. A Stop for a node that has one waiting is that one.
+    uint64_t frames_queued = 0;
     Dropped dropped;
 };
 

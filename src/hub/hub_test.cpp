@@ -260,6 +260,22 @@ TEST(Hub, ALinkThatNeverReadsCostsTheOthersNothing) {
     EXPECT_EQ(hub.stats(sender).frames_received, sent);
 }
 
+// Found by the fuzz target: the second Stop was counted as queued, and neither came nor was dropped.
+TEST(Hub, AStopThatMeetsOneThatWaitsIsNotCountedAgain) {
+    Hub hub;
+    const LinkId host = add(hub), robot = add(hub);
+    wire::Frame stop{};
+    stop.type = static_cast<uint16_t>(wire::MessageType::Stop);
+    stop.size = 2;
+    stop.payload[0] = 9;
+    for (int i = 0; i < 3; ++i) hub.receive(host, stop);
+    wire::Frame out;
+    EXPECT_TRUE(hub.take(robot, out));
+    EXPECT_FALSE(hub.take(robot, out));
+    EXPECT_EQ(hub.stats(robot).frames_queued, 1u);
+    EXPECT_EQ(hub.stats(robot).dropped, Dropped{});
+}
+
 // Links come and go and send anything; every link that stays gets what a plain reading of 1.5 says.
 TEST(Hub, RandomTrafficAgreesWithThePlainRule) {
     const uint64_t seed = 20;

@@ -41,17 +41,12 @@ bool acts(uint16_t type) {
 
 }  // namespace
 
-bool OutputQueue::push_urgent(std::span<const uint8_t> encoded) {
-    const uint16_t type = word_at(encoded.data() + 4);
+bool OutputQueue::follow_stop(uint16_t type, std::span<const uint8_t> encoded) {
     if (!wire::is_command(type)) return false;
-    const uint16_t node = node_of(encoded);
-    if (type == static_cast<uint16_t>(wire::MessageType::Stop)) {
-        push_stop(node, encoded);
-        return true;
-    }
-    if (!stopping_.contains(node)) return false;
+    const auto stopping = stopping_.find(node_of(encoded));
+    if (stopping == stopping_.end()) return false;
     if (acts(type)) {
-        stopping_.erase(node);
+        stopping_.erase(stopping);
         return false;
     }
     if (urgent_.bytes() + encoded.size() > kUrgentBytesMax) return false;
@@ -60,8 +55,8 @@ bool OutputQueue::push_urgent(std::span<const uint8_t> encoded) {
 }
 
 // One Stop is enough until something follows that lets the node act.
-void OutputQueue::push_stop(uint16_t node, std::span<const uint8_t> encoded) {
-    if (stopping_.contains(node)) return;
+bool OutputQueue::push_stop(uint16_t node, std::span<const uint8_t> encoded) {
+    if (stopping_.contains(node)) return false;
     const auto set = static_cast<uint16_t>(wire::MessageType::SetVariables);
     dropped_.messages += messages_.erase_if([&](std::span<const uint8_t> waits) {
         const uint16_t type = word_at(waits.data() + 4);
@@ -69,22 +64,26 @@ void OutputQueue::push_stop(uint16_t node, std::span<const uint8_t> encoded) {
     });
     if (urgent_.bytes() + encoded.size() > kUrgentBytesMax) {
         ++dropped_.messages;
-        return;
+        return true;
     }
     urgent_.push(turn_++, encoded);
     stopping_.insert(node);
+    return true;
 }
 
 // Where few events wait, dropping frees little. An event is not worth that; a command or a reply
 // is, and the next one then finds no events and is turned away at once.
-void OutputQueue::push(std::span<const uint8_t> encoded) {
-    if (push_urgent(encoded)) return;
+bool OutputQueue::push(std::span<const uint8_t> encoded) {
+    const uint16_t type = word_at(encoded.data() + 4);
+    if (type == static_cast<uint16_t>(wire::MessageType::Stop))
+        return push_stop(node_of(encoded), encoded);
+    if (follow_stop(type, encoded)) return true;
     const bool event = is_event(encoded);
-    if (!fits(encoded.size()) && !make_room(encoded.size(), event ? kDropFramesMin : 1)) {
+    if (fits(encoded.size()) || make_room(encoded.size(), event ? kDropFramesMin : 1))
+        (event ? events_ : messages_).push(turn_++, encoded);
+    else
         ++(event ? dropped_.events : dropped_.messages);
-        return;
-    }
-    (event ? events_ : messages_).push(turn_++, encoded);
+    return true;
 }
 
 // The lane whose oldest frame leaves next; one of them is not empty.

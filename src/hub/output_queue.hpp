@@ -53,8 +53,8 @@ struct Dropped {
 class OutputQueue {
 public:
     // Appends one encoded frame (header and payload, as wire::encode() writes it), or drops
-    // something.
-    void push(std::span<const uint8_t> encoded);
+    // something and counts it. False: a Stop for a node that has one waiting, which is that one.
+    bool push(std::span<const uint8_t> encoded);
 
     // The next bytes to write, empty if nothing waits: the same until sent() has taken them all.
     // Borrowed until the next push(), pop() or sent().
@@ -74,9 +74,9 @@ public:
 
 private:
     size_t waiting() const { return events_.frames() + messages_.frames() + urgent_.frames(); }
-    // True: it is Stop, or follows one, and is in its lane or not needed.
-    bool push_urgent(std::span<const uint8_t> encoded);
-    void push_stop(uint16_t node, std::span<const uint8_t> encoded);
+    // True: it follows a Stop that waits, and is in its lane. What lets the node act ends that.
+    bool follow_stop(uint16_t type, std::span<const uint8_t> encoded);
+    bool push_stop(uint16_t node, std::span<const uint8_t> encoded);
     bool fits(size_t size) const;
     bool make_room(size_t size, size_t events_needed);
     void drop_oldest_events();

@@ -178,8 +178,10 @@ TEST(OutputQueue, AFullQueueHasRoomForStop) {
 // Nobody makes it grow by saying Stop again and again, to one node or to many.
 TEST(OutputQueue, ManyStopsTakeBoundedRoom) {
     OutputQueue queue;
-    for (int i = 0; i < 1000; ++i) queue.push(command(Type::Stop, 9, 1));
+    EXPECT_TRUE(queue.push(command(Type::Stop, 9, 1)));
+    for (int i = 1; i < 1000; ++i) EXPECT_FALSE(queue.push(command(Type::Stop, 9, 1)));
     EXPECT_EQ(queue.frames(), 1u);
+    EXPECT_EQ(queue.dropped(), Dropped{});
     for (uint32_t node = 0; node < 0x10000; ++node) {
         queue.push(command(Type::Stop, static_cast<uint16_t>(node), 1));
     }

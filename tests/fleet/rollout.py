@@ -143,7 +143,7 @@ class FromTheStudio(Versions):
         studio.kill()
         studio.start()
         page, fleet, rollout = self.page(studio)
-        page.wait(lambda: "is not true" in rollout.value["robots"]["r1"]["why"], "what it lacks")
+        page.wait(lambda: rollout.value and "is not true" in rollout.value["robots"]["r1"]["why"], "what it lacks")
         self.assertEqual(rollout.value["state"], "left")
         self.do("set", "r1", "thymio-II.edition", 3)
         page.wait(lambda: rollout.value["robots"]["r1"]["is"] == "well", "that it is well")

@@ -223,7 +223,9 @@ uint32_t BusCauses::last_event_heard(std::string_view name, uint32_t before) con
 
 std::vector<std::string> BusCauses::events_seen() const {
     std::vector<std::string> names;
-    for (const auto& [number, frame] : frames_) names.push_back(frame.event);
+    for (const auto& [number, frame] : frames_) {
+        if (!frame.event.empty()) names.push_back(frame.event);
+    }
     return names;
 }
 

@@ -40,11 +40,12 @@ Error Walk::nothing_of(std::string_view kind, const std::string& name) {
     std::sort(known_.begin(), known_.end());
     known_.erase(std::unique(known_.begin(), known_.end()), known_.end());
     const std::string near = nearest(name, known_);
+    const char* const there = known_.size() == 1 ? "; there is " : "; there are: ";
     const std::string hint =
         !near.empty() ? "; did you mean " + near + "?"
         : known_.empty()
             ? ""
-            : "; there is " + list_of(std::vector<std::string_view>(known_.begin(), known_.end()));
+            : there + list_of(std::vector<std::string_view>(known_.begin(), known_.end()));
     const std::string whose = whose_.empty() ? "" : " of " + whose_;
     return {Code::NotFound,
             fmt::format("by then there was no {} \"{}\"{}{}", kind, name, whose, hint)};
@@ -215,10 +216,20 @@ Status Walk::motor(const std::string& name) {
     return nothing_of("robot", name);
 }
 
+// One of the bus, or one that a supervisor of the plan raised; of both names the newer.
 Status Walk::event(const std::string& name) {
     const uint32_t number = bus_->last_event(name);
-    if (number != 0) {
+    const auto raised = last_line(lines().size(), [&](size_t i) {
+        const auto* const one = what<plan::EventRaised>(i);
+        if (one != nullptr) known_.emplace_back(one->event);
+        return one != nullptr && one->event == name;
+    });
+    if (number != 0 && (!raised || bus_->heard_at(number) > lines()[*raised].event.at)) {
         frame(number);
+        return Status::done();
+    }
+    if (raised) {
+        line(*raised);
         return Status::done();
     }
     for (std::string& one : bus_->events_seen()) known_.push_back(std::move(one));

@@ -706,11 +706,15 @@ class Recordings(unittest.TestCase):
         self.assertEqual(first("event", "drive.arrived", at=12), "the script of drive emitted drive.arrived")
         self.assertEqual(first("variable", "drive.token", at=83), "the script of drive wrote token")
         self.assertEqual(first("variable", "drive.patience", at=20.5), "the script of drive wrote patience")
+        self.assertEqual(first("event", "TouchSensorPressed", at=83), "the supervisor wallTouch raised TouchSensorPressed")
+        self.assertEqual(root("event", "TouchSensorPressed", at=83), 'the timeline of the world put "plank" there')
         self.assertEqual(root("end"), 'the timeline of the world pressed the button "escape" of carbot')
         self.assertEqual(self.why("end")[0]["what"], "the plan WallFollow ended: Interrupted")
         for question, sentence in ((["actor", "followwall"], "did you mean followWall?"),
                                    (["motor", "r2d2"], "there is carbot"),
                                    (["event", "drive.arived"], "did you mean drive.arrived?"),
+                                   (["event", "laneNotfree"], "did you mean LaneNotFree?"),
+                                   (["event", "nothing like it"], "; there are: LaneNotFree"),
                                    (["variable", "drive.tokn"], "did you mean token?")):
             self.assertIn(sentence, run_vagus("why", self.file, *question, "--at", 20, status=1))
         self.assertIn("expected a question", run_vagus("why", self.file, "moter", "carbot", status=2))

@@ -212,6 +212,8 @@ class Trials(unittest.TestCase):
                        {"ends": "Interrupted", "by": "late"}]})
         self.assertIn("1 of 1 runs as expected", self.run_test(file=made))
         self.assertIn("is there already", run_vagus("test", "new", self.folder / "run.mcap", made, status=2))
+        run_vagus("test", "new", self.folder / "run.mcap")
+        self.assertEqual((self.folder / "run.test.json").read_text(), made.read_text())
 
     def test_signals_are_listed(self):
         lines = run_vagus("test", "--signals").splitlines()

@@ -325,6 +325,12 @@ int test(TestOptions options) {
 
 // ---- vagus test new ----
 
+// run.mcap: run.test.json, beside it.
+std::string test_beside(const std::string& recording) {
+    fs::path path(recording);
+    return path.replace_extension(trial::kTestEnding).string();
+}
+
 int draft(const std::string& recording, const std::string& to) {
     if (!is_test(to)) {
         return complain(to + ": a test is called NAME" + std::string(trial::kTestEnding),
@@ -358,13 +364,16 @@ void add_new(CLI::App& test, int& exit_code) {
     auto options = std::make_shared<Options>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("RECORDING", options->recording, "of a plan's run")->required(),
                {".mcap"});
-    takes_file(*verb->add_option("FILE", options->to, "the test, beside its plan")->required(),
+    takes_file(*verb->add_option("FILE", options->to, "the test, beside its plan (beside the recording, with its name)"),
                {std::string(trial::kTestEnding)});
     verb->footer(
         "The order in which actors first came, by when the last of them had, and how the run "
         "ended, with a quarter of room: trim it.\n\nExample:\n"
         "  vagus test new run.mcap follow-wall/Wall.test.json");
-    verb->callback([options, &exit_code] { exit_code = draft(options->recording, options->to); });
+    verb->callback([options, &exit_code] {
+        const std::string& to = options->to;
+        exit_code = draft(options->recording, to.empty() ? test_beside(options->recording) : to);
+    });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <utility>
 
 #include "base/json.hpp"
@@ -83,6 +84,56 @@ std::string_view format_event(std::string& room, const RecordedEvent& event) {
     }
     room += '}';
     return room;
+}
+
+namespace {
+
+// A whole number from 0 to `most`.
+std::optional<uint32_t> count_in(const JsonValue& from, std::string_view key, int64_t most) {
+    const JsonValue* const value = from.find(key);
+    if (value == nullptr || value->kind != JsonKind::Int) return std::nullopt;
+    if (value->integer < 0 || value->integer > most) return std::nullopt;
+    return static_cast<uint32_t>(value->integer);
+}
+
+bool append_word(std::vector<int16_t>& words, const JsonValue& value) {
+    if (value.kind != JsonKind::Int || words.size() >= wire::kPayloadMax / 2) return false;
+    if (value.integer < INT16_MIN || value.integer > INT16_MAX) return false;
+    words.push_back(static_cast<int16_t>(value.integer));
+    return true;
+}
+
+}  // namespace
+
+std::optional<RecordedEvent> read_event(Time at, std::string_view data) {
+    const auto json = read_json(data);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    if (tree == nullptr) return std::nullopt;
+    const auto frame = count_in(*tree, "frame", UINT32_MAX);
+    const auto node = count_in(*tree, "node", UINT16_MAX);
+    if (!frame || !node) return std::nullopt;
+    RecordedEvent event{.at = at,
+                        .frame = *frame,
+                        .node = static_cast<uint16_t>(*node),
+                        .name = text_in(*tree, "name"),
+                        .by = text_in(*tree, "by")};
+    const JsonValue* const words = tree->find("args");
+    if (words == nullptr) return event;
+    for (const JsonValue& word : words->items) {
+        if (!append_word(event.arguments, word)) return std::nullopt;
+    }
+    return event;
+}
+
+std::optional<ToldNode> read_node(std::string_view data) {
+    const auto json = read_json(data);
+    const auto* const tree = std::get_if<JsonValue>(&json);
+    const auto node = tree == nullptr ? std::nullopt : count_in(*tree, "node", UINT16_MAX);
+    if (!node) return std::nullopt;
+    return ToldNode{.node = static_cast<uint16_t>(*node),
+                    .name = text_in(*tree, "name"),
+                    .file = text_in(*tree, "file"),
+                    .left = text_in(*tree, "state") == "left"};
 }
 
 RecordedVariable::RecordedVariable(std::string_view name, uint16_t address_of, uint16_t size_of)

@@ -45,6 +45,17 @@ struct RecordedEvent {
 // Decoded once, for all that write and read recordings. `number` is that of its frame.
 RecordedEvent recorded_event(Time at, uint32_t number, uint16_t node, debug::UserEvent event);
 std::string_view format_event(std::string& room, const RecordedEvent& event);
+// Nothing: it is none.
+std::optional<RecordedEvent> read_event(Time at, std::string_view data);
+
+// A node of a real bus has described itself, has left, or is there again.
+struct ToldNode {
+    uint16_t node = 0;
+    std::string name = {};
+    std::string file = {};  // the attachment with its description; empty: it came or went
+    bool left = false;
+};
+std::optional<ToldNode> read_node(std::string_view data);
 
 struct RecordedVariable {
     RecordedVariable(std::string_view name, uint16_t address, uint16_t size);

@@ -157,5 +157,40 @@ TEST_F(BusInMemory, WhatThePlanSentComesBeforeWhatItHeardBehindThat) {
     EXPECT_EQ(again->late(Time(95ms)), Time(100ms));
 }
 
+TEST(BusMessages, AnEventIsReadAsItWasWritten) {
+    const RecordedEvent event{.at = 2ms,
+                              .frame = 7,
+                              .node = 3,
+                              .name = "far \"out\"",
+                              .arguments = {0, -32768, 32767},
+                              .by = "ask"};
+    std::string room;
+    const auto read = read_event(2ms, format_event(room, event));
+    ASSERT_TRUE(read.has_value());
+    EXPECT_EQ(read->frame, 7u);
+    EXPECT_EQ(read->node, 3);
+    EXPECT_EQ(read->name, "far \"out\"");
+    EXPECT_EQ(read->arguments, (std::vector<int16_t>{0, -32768, 32767}));
+    EXPECT_EQ(read->by, "ask");
+}
+
+TEST(BusMessages, WhatIsNoEventIsNotRead) {
+    for (const char* const bad :
+         {"", "{", "[]", "{}", R"({"frame":1})", R"({"frame":-1,"node":3})",
+          R"({"frame":1,"node":65536})", R"({"frame":1,"node":1.5})",
+          R"({"frame":1,"node":3,"args":[32768]})", R"({"frame":1,"node":3,"args":["1"]})"}) {
+        EXPECT_FALSE(read_event(Time{}, bad).has_value()) << bad;
+    }
+}
+
+TEST(BusMessages, ANodeThatWentSaysSo) {
+    const auto left = read_node(R"({"t":1,"node":3,"name":"rover","state":"left"})");
+    ASSERT_TRUE(left.has_value());
+    EXPECT_EQ(left->node, 3);
+    EXPECT_EQ(left->name, "rover");
+    EXPECT_TRUE(left->left);
+    EXPECT_FALSE(read_node(R"({"name":"rover"})").has_value());
+}
+
 }  // namespace
 }  // namespace vagus::record

@@ -16,12 +16,6 @@ namespace vagus::record {
 
 namespace {
 
-uint32_t number_in(const JsonValue& from, std::string_view key) {
-    const JsonValue* const value = from.find(key);
-    const bool there = value != nullptr && value->kind == JsonKind::Int;
-    return there ? static_cast<uint32_t>(value->integer) : 0;
-}
-
 // A line without what hangs on the clock: when it was, and how long a stop took.
 std::string without_times(const std::string& line) {
     auto json = read_json(line);
@@ -57,7 +51,7 @@ Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl:
         } else if (channel->topic == kFramesTopic && at <= until) {
             past->see_frame(at, message->data);
         } else if (channel->topic == kEventsTopic && at <= until) {
-            past->see_event(message->data);
+            past->see_event(at, message->data);
         } else if (channel->topic == kNodesTopic) {
             past->see_node(message->data);
         }
@@ -96,25 +90,20 @@ void PastBus::see_frame(Time at, std::string_view data) {
 }
 
 // Tells who in the plan sent it.
-void PastBus::see_event(std::string_view text) {
+void PastBus::see_event(Time at, std::string_view text) {
     if (text.find("\"by\":") == std::string_view::npos) return;
-    const auto json = read_json(text);
-    const auto* const tree = std::get_if<JsonValue>(&json);
-    if (tree == nullptr) return;
-    const auto found = events_.find(number_in(*tree, "frame"));
+    const auto event = read_event(at, text);
+    const auto found = event ? events_.find(event->frame) : events_.end();
     if (found == events_.end()) return;
-    found->second.event.by = text_in(*tree, "by");
+    found->second.event.by = event->by;
     emissions_.push_back({++places_, found->first});
 }
 
 void PastBus::see_node(std::string_view text) {
-    const auto json = read_json(text);
-    const auto* const tree = std::get_if<JsonValue>(&json);
-    const std::string file = tree == nullptr ? "" : text_in(*tree, "file");
-    if (file.empty()) return;  // it only came or went
-    const auto node = static_cast<uint16_t>(number_in(*tree, "node"));
-    names_[node] = text_in(*tree, "name");
-    labels_[node] = std::filesystem::path(file).stem().string();
+    const auto told = read_node(text);
+    if (!told || told->file.empty()) return;
+    names_[told->node] = told->name;
+    labels_[told->node] = std::filesystem::path(told->file).stem().string();
 }
 
 std::string PastBus::name_of(uint16_t node) const {

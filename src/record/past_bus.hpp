@@ -106,7 +106,7 @@ private:
     void see_trace(Time at, std::string_view text);
     Status see_input(Time at, std::string_view text, const std::string& name);
     void see_frame(Time at, std::string_view data);
-    void see_event(std::string_view text);
+    void see_event(Time at, std::string_view text);
     void see_node(std::string_view text);
     const Line* next_line() const;
     bool comes_before_line(const Item& item) const;

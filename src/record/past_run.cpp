@@ -43,11 +43,14 @@ std::string PastPaths::of(const std::string& name) const {
         .string();
 }
 
+std::optional<PastPaths> paths_beside(const std::string& name, const std::string& path) {
+    const std::filesystem::path here(path), then(name);
+    if (here.filename() != then.filename()) return std::nullopt;
+    return PastPaths(here.parent_path(), then.parent_path());
+}
+
 Result<PastPaths> PastRun::paths(const std::string& path) const {
-    const std::filesystem::path here(path), then(main());
-    if (here.filename() == then.filename()) {
-        return PastPaths(here.parent_path(), then.parent_path());
-    }
+    if (const auto paths = paths_beside(main(), path)) return *paths;
     return Error{Code::Refused, fmt::format("{}: the recorded run was of {}", path, main())};
 }
 

@@ -43,6 +43,9 @@ private:
     std::filesystem::path folder_, name_;  // the same one, here and in the recording
 };
 
+// If the file at that path may be the one that the recording calls `name`: so are those beside it.
+std::optional<PastPaths> paths_beside(const std::string& name, const std::string& path);
+
 struct PastRun {
     RunFile about;
     std::map<std::string, std::string> files;  // as they were when the run began, by name

@@ -1,11 +1,13 @@
 """What the server keeps of a run: any instant of it, what a timeline draws, and traces as files."""
 import json
 import sys
+import tempfile
 import unittest
 
 import bus_plans
 import projects
 from cases import Case
+from harness import listening, run_vagus, simulated
 from projects import PLAN
 
 
@@ -152,6 +154,7 @@ class Traces(HistoryCase):
         then = page.do("history.at", t=0.25, trace=path)
         self.assertEqual((value_of(then, "rounds"), levels_of(then)[0]["actor"]), (2, "wait"))
         self.assertEqual(page.do("history.at", t=0.5, trace=path)["plan"]["result"], "OK")
+        self.assertIn("a trace tells what a plan did, and not why", self.refused("failed", "why.ask", about="end", trace=path))
 
     def test_AFileThatIsNoTraceSaysWhereAndWhy(self):
         page = self.open_plan()
@@ -210,6 +213,52 @@ class OnABus(Case):
         lanes = page.do("history.lanes", **{"from": 0, "to": 60}, width=1000)
         names = {bar.get("name") for lane in lanes["lanes"] if lane["kind"] == "actors" for bar in lane["bars"]}
         self.assertIn("wait", names)
+
+
+class ARecordingOfARobot(Case):
+    """Its run cannot be run again: what was recorded is shown."""
+
+    def open_recorded(self):
+        arena = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-arena-"))
+        robot = self.enterContext(simulated(arena, {"name": "alice", "node": 1}))
+        bus = f"tcp:127.0.0.1:{listening(robot)}"
+
+        def make(folder):
+            projects.bus(folder, "sim", name="thymio-II")
+            projects.write(folder, "drive.plan.json", bus_plans.PLAN)
+            run_vagus("plan", "run", folder / "drive.plan.json", "--bus", bus, "--project", folder / "robot.aesl", "--quiet", "--set",
+                      "limit=3", "--record", folder / "monday.mcap")
+
+        return self.open(make)
+
+    def test_ItIsLookedAtWithoutTheRobot(self):
+        page = self.open_recorded()
+        told = page.do("recording.open", path="monday.mcap")
+        self.assertEqual(told["again"], False)
+        self.assertRegex(told["why"], "monday.mcap: is a recording of a real bus")
+        opened = page.do("history.open", trace="monday.mcap")
+        self.assertEqual((opened["from"], opened["refused"], opened["plan"]), (0, 0, True))
+        end = page.do("history.at", t=opened["to"], events=100, trace="monday.mcap")
+        self.assertEqual((end["plan"]["result"], end["plan"]["doc"]), ("OK", "drive.plan.json"))
+        self.assertIn(["main", "go", [150]], [[one["source"], one["name"], one["args"]] for one in end["events"]])
+        lanes = page.do("history.lanes", **{"from": 0, "to": opened["to"]}, width=1000, trace="monday.mcap")["lanes"]
+        chain = page.do("why.ask", about="actor", name="wait", t=opened["to"], trace="monday.mcap")["chain"]
+        self.assertEqual((chain[0]["what"], chain[0]["doc"]), ("the actor wait ended with Done", "drive.plan.json"))
+        (actors,) = [lane for lane in lanes if lane["kind"] == "actors"]
+        self.assertEqual(len([bar for bar in actors["bars"] if bar.get("name") == "wait"]), 3)
+
+    def test_WithoutItsPlanOrDamagedItIsToldWhatIsThere(self):
+        page = self.open_recorded()
+        recording = (self.folder / "monday.mcap").read_bytes()
+        (self.folder / "drive.plan.json").unlink()
+        (self.folder / "cut.mcap").write_bytes(recording[:-100])
+        self.assertFalse(page.do("history.open", trace="cut.mcap")["plan"])
+        lanes = page.do("history.lanes", **{"from": 0, "to": 1}, width=1000, trace="cut.mcap")["lanes"]
+        self.assertIn("wait", {bar.get("name") for lane in lanes if lane["kind"] == "actors" for bar in lane["bars"]})
+        (self.folder / "text.mcap").write_text("hello")
+        self.assertIn("text.mcap", self.refused("bad_input", "history.open", trace="text.mcap"))
+        self.assertIn("there is no such file", self.refused("not_found", "history.open", trace="none.mcap"))
+        self.assertIn("there is no such file", self.refused("not_found", "history.open", trace="../monday.mcap"))
 
 
 class Hostile(HistoryCase):

@@ -65,5 +65,9 @@ export class Asking {
 }
 
 export const askingOf: (studio: Studio) => Asking = deskFor(
-  (studio: Studio) => new Asking((input) => studio.send('why.ask', input)),
+  (studio: Studio) =>
+    new Asking((input) => {
+      const shown = studio.past.trace;
+      return studio.send('why.ask', shown ? { ...input, trace: shown.path } : input);
+    }),
 );

@@ -1876,7 +1876,7 @@ export interface Commands {
     /** [index in the scene, t, x, y, t, x, y, …] */
     ways: Json[];
   } };
-  /** Reads a trace that is kept as a file, NAME.trace.jsonl. */
+  /** Reads a run that is kept as a file, and runs nothing: a trace, NAME.trace.jsonl, or what a recording says, NAME.mcap. */
   'history.open': { in: {
     trace: Path;
   }; out: {
@@ -1896,12 +1896,17 @@ export interface Commands {
   'recording.list': { in: Record<never, never>; out: {
     recordings: KeptRecording[];
   } };
-  /** Runs a recorded run of this project's plan or world again, to its end, with the files of then: it can be looked back into, asked, and continued. */
+  /** Runs a recorded run of this project's plan or world again, to its end, with the files of then: it can be looked back into, asked, and continued. One that cannot be run again, as that of a real robot, is looked at by history.open. */
   'recording.open': { in: {
     path: Path;
     /** it is run from its beginning as the clock goes, to be watched and changed, instead */
     live?: boolean;
-  }; out: Record<never, never> };
+  }; out: {
+    /** missing: it is run again; false: it cannot be */
+    again?: boolean;
+    /** why not */
+    why?: string;
+  } };
   /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, and how it ended. */
   'test.keep': { in: Record<never, never>; out: {
     path: Path;
@@ -1921,6 +1926,8 @@ export interface Commands {
     /** of an actor, a robot, an event; of a variable, or NODE.NAME of a node's */
     name?: string;
     t?: number;
+    /** a recording that is shown without a run */
+    trace?: Path;
   }; out: {
     /** the newest first */
     chain: WhyLink[];
@@ -2553,7 +2560,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'recording.list': { may: 'look', kind: 'look', out: { recordings: '[KeptRecording; 100]' } },
-  'recording.open': { may: 'driver', kind: 'act', out: {} },
+  'recording.open': { may: 'driver', kind: 'act', out: { again: 'bool?', why: 'line(1000)?' } },
   'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'tests.run': { may: 'driver', kind: 'act', out: {} },
   'tests.stop': { may: 'driver', kind: 'edit', out: {} },

@@ -364,7 +364,8 @@ void add_new(CLI::App& test, int& exit_code) {
     auto options = std::make_shared<Options>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("RECORDING", options->recording, "of a plan's run")->required(),
                {".mcap"});
-    takes_file(*verb->add_option("FILE", options->to, "the test, beside its plan (beside the recording, with its name)"),
+    takes_file(*verb->add_option("FILE", options->to,
+                                 "the test, beside its plan (beside the recording, with its name)"),
                {std::string(trial::kTestEnding)});
     verb->footer(
         "The order in which actors first came, by when the last of them had, and how the run "

@@ -81,6 +81,7 @@ public:
     };
     bool empty() const { return kind_ == "none"; }
     uint64_t run() const { return run_; }
+    double from() const;
     double to() const;
     // The topic history.
     Json document() const;
@@ -97,7 +98,6 @@ public:
     const EventPast& events() const { return events_; }
 
 private:
-    double from() const;
     void add_sights(Json& found, const TapeState& state, const Instant& instant) const;
     Json values_at(const TapeState& state, const std::vector<Range>& ranges) const;
     Json curve(const Word& word, const Window& window) const;

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "embed/loaded_plan.hpp"
-#include "plan/check.hpp"
 #include "plan/file.hpp"
 #include "serve/json.hpp"
 
@@ -216,13 +215,16 @@ std::string PlanPast::text() const {
 // ---- plans ----
 
 PlanPast::Plans read_plans(const std::string& file) {
+    return read_plans(file, embed::PlanDisk(file));
+}
+
+PlanPast::Plans read_plans(const std::string& file, const plan::Files& files) {
     std::vector<plan::Plan> plans;
-    const embed::PlanDisk disk(file);
     std::vector<std::string> wanted = {file};
     std::set<std::string> seen;
     for (size_t i = 0; i < wanted.size() && i < plan::kPlanFilesMax; ++i) {
         if (!seen.insert(wanted[i]).second) continue;
-        const auto text = disk.read(wanted[i]);
+        const auto text = files.read(wanted[i]);
         if (!text.ok()) continue;
         plan::PlanFile read = plan::parse_plan(text.value(), wanted[i]);
         for (const plan::Actor& actor : read.plan.actors) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "plan/check.hpp"
 #include "serve/follow/plan_follower.hpp"
 #include "serve/history/lane.hpp"
 #include "serve/history/trace_line.hpp"
@@ -95,7 +96,8 @@ private:
     uint64_t dropped_ = 0;
 };
 
-// The plan of a file with all its sub-plans, as far as they can be read.
+// The plan of a file with all its sub-plans, as far as they can be read: from the disk, or there.
 PlanPast::Plans read_plans(const std::string& file);
+PlanPast::Plans read_plans(const std::string& file, const plan::Files& files);
 
 }  // namespace vagus::serve

@@ -73,16 +73,6 @@ Result<History::Window> window_of(const Json& in) {
     return window;
 }
 
-// The plan of the project that has this name; empty if none has.
-std::string plan_file_of(const std::vector<TraceFile::Plan>& plans, const std::string& name) {
-    const std::string plan = name.substr(0, name.find('/'));
-    for (const TraceFile::Plan& one : plans) {
-        const Json json = Json::parse(one.text, nullptr, false);
-        if (json.is_object() && json.contains("name") && json["name"] == plan) return one.real;
-    }
-    return {};
-}
-
 }  // namespace
 
 HistoryDesk::HistoryDesk(Desk& desk, Files& files, Worker::Post post)
@@ -114,12 +104,12 @@ void HistoryDesk::declare() {
         });
     });
     desk_.command("history.open", [this](const Call& call) {
-        open(call, [call](const OpenTrace& trace) {
-            call.done({{"from", trace.history.plan()->from()},
-                       {"to", trace.history.to()},
-                       {"lines", trace.lines},
-                       {"refused", trace.refused},
-                       {"plan", trace.has_plan}});
+        open(call, [call](const KeptRun& run) {
+            call.done({{"from", run.history.from()},
+                       {"to", run.history.to()},
+                       {"lines", run.lines},
+                       {"refused", run.refused},
+                       {"plan", run.has_plan}});
         });
     });
     desk_.command("history.save", [this](const Call& call) {
@@ -131,7 +121,7 @@ void HistoryDesk::declare() {
 
 void HistoryDesk::ask(const Call& call, const Ask& then) {
     if (call.in.contains("trace")) {
-        return open(call, [then](const OpenTrace& trace) { then(trace.history); });
+        return open(call, [then](const KeptRun& run) { then(run.history); });
     }
     if (now_->empty()) return call.fail("unavailable", "nothing has run yet; Run starts it");
     then(*now_);
@@ -157,7 +147,7 @@ void HistoryDesk::continue_from(double t) {
 void HistoryDesk::forget() {
     next_.reset();
     now_ = std::make_unique<History>();
-    for (auto& trace : std::exchange(traces_, {})) drop(std::move(trace));
+    for (auto& run : std::exchange(kept_, {})) drop(std::move(run));
     for (const auto& [path, waiting] : std::exchange(waiting_, {})) {
         for (const Waiting& one : waiting) {
             one.call.fail("unavailable", path + ": the project was closed while it was read");
@@ -215,39 +205,39 @@ void HistoryDesk::tick(double t) {
     desk_.topics().touch("history");
 }
 
-// ---- traces as files ----
+// ---- runs as files ----
 
 void HistoryDesk::open(const Call& call, const Use& use) {
     const std::string path = call.in["trace"];
     auto file = look_for(path);
     if (!file.ok()) return call.fail(file.error());
-    const auto known = std::find_if(traces_.begin(), traces_.end(),
+    const auto known = std::find_if(kept_.begin(), kept_.end(),
                                     [&](const auto& one) { return one->path == path; });
-    if (known != traces_.end() && (*known)->written == file.value().written) {
-        traces_.splice(traces_.begin(), traces_, known);
-        return use(*traces_.front());
+    if (known != kept_.end() && (*known)->written == file.value().written) {
+        kept_.splice(kept_.begin(), kept_, known);
+        return use(*kept_.front());
     }
     std::vector<Waiting>& waiting = waiting_[path];
     waiting.push_back({call, use});
     if (waiting.size() > 1) return;
-    using Read = Result<std::shared_ptr<OpenTrace>>;
+    using Read = Result<std::shared_ptr<KeptRun>>;
     worked<Read>(
-        post_, [file = std::move(file.value())] { return read_trace(file); },
+        post_, [file = std::move(file.value())] { return read_kept_run(file); },
         [this, path](const Read& read) { opened(path, read); });
 }
 
 // Of several requests while it was read each gets its answer.
-void HistoryDesk::opened(const std::string& path, const Result<std::shared_ptr<OpenTrace>>& read) {
+void HistoryDesk::opened(const std::string& path, const Result<std::shared_ptr<KeptRun>>& read) {
     const auto waiting = waiting_.extract(path);
     if (waiting.empty()) return;
     if (read.ok()) {
-        for (auto one = traces_.begin(); one != traces_.end();) {
+        for (auto one = kept_.begin(); one != kept_.end();) {
             const auto next = std::next(one);
-            if ((*one)->path == path) drop(std::move(*one)), traces_.erase(one);
+            if ((*one)->path == path) drop(std::move(*one)), kept_.erase(one);
             one = next;
         }
-        traces_.push_front(read.value());
-        if (traces_.size() > kTracesOpen) drop(std::move(traces_.back())), traces_.pop_back();
+        kept_.push_front(read.value());
+        if (kept_.size() > kRunsOpen) drop(std::move(kept_.back())), kept_.pop_back();
     }
     for (const Waiting& one : waiting.mapped()) {
         read.ok() ? one.use(*read.value()) : one.call.fail(read.error());
@@ -255,19 +245,30 @@ void HistoryDesk::opened(const std::string& path, const Result<std::shared_ptr<O
 }
 
 // To forget a long one takes a while, too.
-void HistoryDesk::drop(std::shared_ptr<OpenTrace> trace) {
-    post_([trace = std::move(trace)]() -> Worker::Then { return [] {}; });
+void HistoryDesk::drop(std::shared_ptr<KeptRun> run) {
+    post_([run = std::move(run)]() -> Worker::Then { return [] {}; });
 }
 
-Result<TraceFile> HistoryDesk::look_for(const std::string& path) const {
-    const uintmax_t size = TRY(files_.size(path));
-    if (size > kTraceFileBytes) {
-        return Error{Code::BadInput, fmt::format("{}: a trace has at most {} bytes, this one has "
-                                                 "{}; take its last part",
-                                                 path, kTraceFileBytes, size)};
-    }
+// Recordings of the last runs are no files of the project, and are found all the same.
+Result<KeptFile> HistoryDesk::look_for(const std::string& path) const {
+    const bool recording = is_recording_file(path);
+    KeptFile file{.path = path, .real = (files_.root() / path).string()};
+    uintmax_t size = 0;
     std::error_code failed;
-    TraceFile file{path, (files_.root() / path).string(), {}, {}};
+    if (recording) {
+        file.real = TRY(recording_at_(path));
+        size = fs::file_size(file.real, failed);
+    } else {
+        size = TRY(files_.size(path));
+    }
+    const uintmax_t most = recording ? kRecordingFileBytes : kTraceFileBytes;
+    if (size > most) {
+        return Error{Code::BadInput,
+                     fmt::format("{}: a file that is opened as what was recorded has at most {} "
+                                 "bytes, this one has {}; {}",
+                                 path, most, size,
+                                 recording ? "record for a shorter time" : "take its last part")};
+    }
     file.written = fs::last_write_time(file.real, failed);
     bool more = false;
     for (const FileInfo& one : files_.list(more)) {
@@ -277,37 +278,6 @@ Result<TraceFile> HistoryDesk::look_for(const std::string& path) const {
         if (text.ok()) file.plans.push_back({real, text.value(), doc_of_(real)});
     }
     return file;
-}
-
-Result<std::shared_ptr<OpenTrace>> read_trace(const TraceFile& file) {
-    const std::string text = TRY(read_file(file.real));
-    const auto first = TraceLine::read(text.substr(0, text.find('\n')));
-    if (!first.ok()) {
-        return Error{Code::BadInput, fmt::format("{}:1: {}", file.path, first.error().what)};
-    }
-    const std::string name = first.value().plan();
-    auto opened = std::make_shared<OpenTrace>();
-    opened->path = file.path;
-    opened->written = file.written;
-    const std::string plan = plan_file_of(file.plans, name);
-    opened->has_plan = !plan.empty();
-    History::Beginning beginning{.kind = "trace", .name = file.path, .plan_seconds = 1e12};
-    if (opened->has_plan) beginning.plans = read_plans(plan);
-    // Without its plan a trace still says who worked, and when.
-    if (beginning.plans.empty()) beginning.plans.emplace_back().name = name;
-    beginning.doc_of = [plans = file.plans](const std::string& real) {
-        const auto found = std::find_if(plans.begin(), plans.end(),
-                                        [&](const auto& one) { return one.real == real; });
-        return found == plans.end() ? real : found->doc;
-    };
-    opened->history.begin(std::move(beginning));
-    for (size_t at = 0; at < text.size();) {
-        const size_t stop = std::min(text.find('\n', at), text.size());
-        const bool good = opened->history.trace(text.substr(at, stop - at));
-        ++(good ? opened->lines : opened->refused);
-        at = stop + 1;
-    }
-    return opened;
 }
 
 Result<std::string> HistoryDesk::save() {

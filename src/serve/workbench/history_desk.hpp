@@ -1,4 +1,4 @@
-// The history of the run, and traces that were opened as files, for pages: the topic history, and
+// The history of the run, and of runs that were opened as files, for pages: the topic history, and
 // the commands history.at, history.lanes, history.open, history.save. Told what happens by what
 // has the run and the robot.
 //
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "serve/history/history.hpp"
+#include "serve/history/kept_run.hpp"
 #include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
@@ -24,30 +25,9 @@
 
 namespace vagus::serve {
 
-constexpr size_t kTracesOpen = 4;              // that are kept in memory
-constexpr size_t kTraceFileBytes = 32u << 20;  // as much as a run keeps
-constexpr size_t kTraceNamesMax = 1000;        // NAME-1.trace.jsonl, NAME-2, …
+constexpr size_t kRunsOpen = 4;          // files that are kept in memory
+constexpr size_t kTraceNamesMax = 1000;  // NAME-1.trace.jsonl, NAME-2, …
 constexpr const char* kTraceEnding = ".trace.jsonl";
-
-// A trace as a file, and what it is read with.
-struct TraceFile {
-    std::string path;  // in the project
-    std::string real;  // on this computer
-    std::filesystem::file_time_type written{};
-    struct Plan {
-        std::string real, text, doc;
-    };
-    std::vector<Plan> plans;  // of the project
-};
-struct OpenTrace {
-    std::string path;
-    std::filesystem::file_time_type written{};
-    History history;
-    size_t lines = 0, refused = 0;
-    bool has_plan = false;
-};
-// Seconds, for a long one: uses nothing but the file.
-Result<std::shared_ptr<OpenTrace>> read_trace(const TraceFile& file);
 
 class HistoryDesk {
 public:
@@ -57,6 +37,12 @@ public:
 
     void set_doc_of(std::function<std::string(const std::string& file)> doc_of) {
         doc_of_ = std::move(doc_of);
+    }
+
+    // Where a recording lies on this computer; the Error says that there is none.
+    void set_recording_at(
+        std::function<Result<std::string>(const std::string& path)> recording_at) {
+        recording_at_ = std::move(recording_at);
     }
 
     // Something else may run from now on. What was kept of the run before stays until it does.
@@ -83,7 +69,7 @@ public:
 
 private:
     using Ask = std::function<void(const History&)>;
-    using Use = std::function<void(const OpenTrace&)>;
+    using Use = std::function<void(const KeptRun&)>;
     struct Waiting {
         Call call;
         Use use;
@@ -92,19 +78,20 @@ private:
     void declare();
     void ask(const Call& call, const Ask& then);
     void open(const Call& call, const Use& use);
-    void opened(const std::string& path, const Result<std::shared_ptr<OpenTrace>>& read);
-    Result<TraceFile> look_for(const std::string& path) const;
-    void drop(std::shared_ptr<OpenTrace> trace);
+    void opened(const std::string& path, const Result<std::shared_ptr<KeptRun>>& read);
+    Result<KeptFile> look_for(const std::string& path) const;
+    void drop(std::shared_ptr<KeptRun> run);
     Result<std::string> save();
 
     Desk& desk_;
     Files& files_;
+    std::function<Result<std::string>(const std::string&)> recording_at_;
     std::function<std::string(const std::string&)> doc_of_ = [](const std::string& f) { return f; };
     std::unique_ptr<History> now_ = std::make_unique<History>();
     std::unique_ptr<History> next_;  // of what has been opened and does not go yet
     uint64_t run_ = 0;
-    std::list<std::shared_ptr<OpenTrace>> traces_;  // the one that was asked for last first
-    // For traces that are being read, by path.
+    std::list<std::shared_ptr<KeptRun>> kept_;  // the one that was asked for last first
+    // For files that are being read, by path.
     std::map<std::string, std::vector<Waiting>> waiting_;
     const Worker::Post post_;
     double told_to_ = 0;

@@ -17,7 +17,8 @@ ShownRun or_none(ShownRun run) {
                 const auto found = file();
                 return found.ok() ? found.value() : std::string();
             },
-            .flush = std::move(run.flush)};
+            .flush = std::move(run.flush),
+            .kept = std::move(run.kept)};
 }
 
 }  // namespace

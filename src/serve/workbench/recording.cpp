@@ -10,10 +10,17 @@
 #include "base/time.hpp"
 #include "mcap/reader.hpp"
 #include "record/past_run.hpp"
+#include "serve/edit/text_places.hpp"
 #include "trial/from_recording.hpp"
 #include "trial/test_file.hpp"
 
 namespace vagus::serve {
+
+namespace {
+
+constexpr size_t kNotAgainMax = 1000;  // bytes, as in the protocol
+
+}  // namespace
 
 // Seconds of what is kept: those of a simulation, or since the bus or the plan on it began.
 double Workbench::history_clock() const {
@@ -23,6 +30,7 @@ double Workbench::history_clock() const {
 
 void Workbench::record_history() {
     history_.set_doc_of([this](const std::string& file) { return doc_of(file); });
+    history_.set_recording_at([this](const std::string& path) { return recording_at(path); });
     run_.on_told({
         .plan = [this](const talk::PlanVersion& one) { history_.plan(one.number, one.plans); },
         .trace = [this](const std::string& line) { history_.trace(line); },
@@ -132,7 +140,15 @@ void Workbench::record_script(uint16_t node, const std::string& name) {
 
 ShownRun Workbench::shown_run() {
     return {.file = [this] { return recording_of_run(); },
-            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); }};
+            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); },
+            .kept = [this](const std::string& path) { return asked_recording(path); }};
+}
+
+Result<std::string> Workbench::asked_recording(const std::string& path) const {
+    if (is_recording_file(path)) return recording_at(path);
+    return Error{Code::Refused, path +
+                                    ": a trace tells what a plan did, and not why; record the run "
+                                    "to ask that, with --record FILE.mcap"};
 }
 
 Result<std::string> Workbench::recording_of_run() const {
@@ -170,9 +186,15 @@ void Workbench::open_recording(const Call& call) {
         worker_.poster(), [file = file.value()] { return record::read_past(file, std::nullopt); },
         [this, call, path](const Read& past) {
             if (!project_ || bus_) return call.fail("unavailable", "the project was closed");
-            past.ok() ? relive(call, project_->real(path), past.value())
-                      : call.fail("bad_input", with_short_paths(past.error().what));
+            if (past.ok()) return relive(call, project_->real(path), past.value());
+            const std::string why = with_short_paths(past.error().what);
+            past.error().code == Code::Refused ? not_again(call, why) : call.fail("bad_input", why);
         });
+}
+
+// What was recorded can be looked at all the same (history.open).
+void Workbench::not_again(const Call& call, const std::string& why) {
+    call.done({{"again", false}, {"why", line_of(why, kNotAgainMax)}});
 }
 
 Result<std::string> Workbench::recording_at(const std::string& path) const {
@@ -202,12 +224,12 @@ void Workbench::relive(const Call& call, const std::string& recording,
                        const record::PastRun& past) {
     const std::string main = whys_.path_of(past.main());
     if (main.empty()) {
-        return call.fail("not_found", fmt::format("the recorded run was of {}, which this project "
-                                                  "does not have",
-                                                  past.main()));
+        return not_again(call, fmt::format("the recorded run was of {}, which this project does "
+                                           "not have",
+                                           past.main()));
     }
     const auto paths = past.paths(project_->real(main));
-    if (!paths.ok()) return call.fail(paths.error());
+    if (!paths.ok()) return not_again(call, paths.error().what);
     RunOrder order;
     order.world = paths.value().of(past.about.world);
     if (!past.about.plan.empty()) order.plan = project_->real(main);
@@ -215,7 +237,7 @@ void Workbench::relive(const Call& call, const std::string& recording,
         order.toolboxes.push_back(paths.value().of(one));
     }
     if (past.about.world.empty()) {
-        return call.fail("unavailable",
+        return not_again(call,
                          "the recorded run was of a plan without a world; "
                          "`vagus replay` runs it again");
     }

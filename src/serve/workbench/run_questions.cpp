@@ -13,9 +13,11 @@ void RunQuestions::ask(const Call& call, Json question, Questions::Then then) {
         return call.fail("limit",
                          fmt::format("{} questions are being answered; wait for them", at_once_));
     }
-    const auto file = run_.file();
+    const bool is_kept = call.in.contains("trace");
+    const auto file = is_kept ? run_.kept(call.in["trace"]) : run_.file();
     if (!file.ok()) return call.fail(file.error());
     question["file"] = file.value();
+    if (is_kept) return questions_.ask(call, std::move(question), std::move(then));
     const uint64_t number = ++numbers_;
     flushing_.push_back({number, call});
     run_.flush([this, number, question = std::move(question), then = std::move(then)] {

@@ -1,5 +1,6 @@
 // Questions about the run that is shown (questions.hpp): its process writes first what is recorded
-// so far, then a process of its own answers from that file.
+// so far, then a process of its own answers from that file. A recording that is shown without a run
+// is asked as it is.
 //
 //     RunQuestions questions({.program = "/usr/bin/vagus", .verb = "why-host", .kind = kWhyAsked,
 //                             .within = kWhyWithin, .look_every = kWhyLookEvery},
@@ -22,6 +23,8 @@ struct ShownRun {
     std::function<Result<std::string>()> file;
     // Tells when all that has happened by now is in it.
     std::function<void(std::function<void()> done)> flush;
+    // Where a recording of that path lies on this computer. The Error says why it cannot be asked.
+    std::function<Result<std::string>(const std::string& path)> kept = {};
 };
 
 class RunQuestions {
@@ -30,7 +33,7 @@ public:
     RunQuestions(QuestionRules rules, size_t at_once, ShownRun run)
         : questions_(std::move(rules)), at_once_(at_once), run_(std::move(run)) {}
 
-    // The question gets a member more: "file".
+    // The question gets a member more: "file", that of the run or, if the call has one, of `trace`.
     void ask(const Call& call, Json question, Questions::Then then);
     void cancel(const std::function<bool(const Call& call)>& is_meant);
 

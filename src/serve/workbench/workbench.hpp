@@ -212,9 +212,11 @@ private:
     ShownRun shown_run();
     Result<std::string> recording_of_run() const;
     Result<std::string> recording_at(const std::string& path) const;
+    Result<std::string> asked_recording(const std::string& path) const;
     void begin_past(const Call& call, RunOrder order, bool go);
     void list_recordings(const Call& call);
     void open_recording(const Call& call);
+    static void not_again(const Call& call, const std::string& why);
     void relive(const Call& call, const std::string& recording, const record::PastRun& past);
     void keep_test(const Call& call);
     Result<std::string> new_test(const std::string& plan, const std::string& text);

@@ -153,17 +153,25 @@ async function continueFrom(studio: Studio, paused: boolean): Promise<void> {
   if (t !== null) await studio.send('run.continue', { t, paused });
 }
 
-/** Runs a recorded run again: its timeline is that of the run. */
+/** Runs a recorded run again: its timeline is that of the run. One that cannot be is shown as it was recorded. */
 export async function openRecording(studio: Studio, path: string): Promise<void> {
   try {
-    await studio.send('recording.open', { path });
+    const { again, why } = onRobot(studio)
+      ? { again: false, why: text.past.onRobot(path) }
+      : await studio.send('recording.open', { path });
+    if (again === false) {
+      await openTrace(studio, path);
+      toast(studio.window, 'ok', text.past.asRecorded(why ?? path));
+    }
     revealPanel(studio.window, 'timeline');
   } catch (problem) {
     studio.tell(problem);
   }
 }
 
-/** Shows a trace that is kept as a file: its plan at each instant, without a run. */
+const onRobot = (studio: Studio) => studio.topics.get('robot', {})?.kind === 'bus';
+
+/** Shows a run that is kept as a file: its plan at each instant, without a run. */
 export async function openTrace(studio: Studio, path: string): Promise<void> {
   try {
     const { plan, refused } = await studio.past.openTrace(path);

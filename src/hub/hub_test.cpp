@@ -260,7 +260,7 @@ TEST(Hub, ALinkThatNeverReadsCostsTheOthersNothing) {
     EXPECT_EQ(hub.stats(sender).frames_received, sent);
 }
 
-// Found by the fuzz target: the second Stop was counted as queued, and neither came nor was dropped.
+// Found by the fuzz target: a second Stop was counted as queued, and neither came nor was dropped.
 TEST(Hub, AStopThatMeetsOneThatWaitsIsNotCountedAgain) {
     Hub hub;
     const LinkId host = add(hub), robot = add(hub);

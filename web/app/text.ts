@@ -362,7 +362,7 @@ export const text = {
     run: 'Run',
     pause: 'Pause',
     step: 'Step',
-    runs: 'runs',
+    runs: 'running',
     asFast: 'As fast as it goes',
     speed: (speed: number) => (speed === 0 ? 'max' : `${speed}×`),
     measured: (real: number) => `measured ${real.toFixed(1)}×`,
@@ -587,7 +587,7 @@ export const text = {
     oldRuns: (time: string | null) =>
       `The ${time === null ? 'earlier script' : `script of ${time}`} is still on the robot. This one is not uploaded while it has an error.`,
     older: (time: string | null) =>
-      `The ${time === null ? 'earlier script' : `script of ${time}`} is running. Upload this one to run it.`,
+      `The ${time === null ? 'earlier script' : `script of ${time}`} is on the robot. Upload this one to run it.`,
     fault: (what: string, line: number | undefined) =>
       `The node stopped${line === undefined ? '' : ` at line ${line}`}: ${what}`,
     disk: 'The file changed on disk.',

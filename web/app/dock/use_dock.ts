@@ -78,7 +78,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     const opened = { model: next, plan };
     if (before.current) carryDocuments(studio, before.current, opened, closed.current);
     noteFirst(studio, next);
-    if (mayTakeFocus(before.current === null)) keepFocus(studio);
+    if (mayTakeFocus(studio)) keepFocus(studio);
     before.current = opened;
     keys.set(next, key);
     setMade({ model: next, key });
@@ -94,6 +94,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   const changed = useCallback(
     (changedModel: Model, action: Action) => {
       noteClosed(closed.current, action);
+      if (action.type === Actions.SELECT_TAB) growTiny(changedModel, action.data['tabNode']);
       keep(changedModel, action);
     },
     [keep],
@@ -292,6 +293,18 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
   noteShown(studio, model);
 }
 
+/** Pixels: the tab, and two rows. */
+const kTiny = 110;
+
+/** A panel that somebody wants to see, and of which there is hardly more than its tab. */
+function growTiny(model: Model, tab: unknown): void {
+  const id = String(tab);
+  const least = panelOf(id.replace(/^panel:/, ''))?.least ?? 0;
+  const area = model.getNodeById(id)?.getParent();
+  if (area instanceof TabSetNode && area.getRect().height < Math.min(kTiny, least))
+    growArea(model, id, least);
+}
+
 /** A panel that shares its area with documents: one that shows itself must not cover what is worked on. */
 function hidesDocument(area: Node | undefined): boolean {
   return area instanceof TabSetNode && area.getSelectedNode()?.getId().startsWith('doc:') === true;
@@ -345,9 +358,9 @@ function focusInTab(id: string): boolean {
 }
 
 /** Not in a page that was only loaded: the first key would be typed. A finger opens a project without keys on the screen. */
-function mayTakeFocus(isFirst: boolean): boolean {
+function mayTakeFocus({ window: store, wasOpenedHere }: Studio): boolean {
   const isTouched = matchMedia('(pointer: coarse)').matches;
-  return navigator.userActivation.hasBeenActive && !(isFirst && isTouched);
+  return store.getState().isLayoutChosen || (wasOpenedHere && !isTouched);
 }
 
 /** Another layout recreates its panels: the focus stays in the document, unless something else has it. */

@@ -697,7 +697,7 @@ export const text = {
     nothingToRedo: 'Nothing was undone in this run.',
     canvas: (name: string) => `World ${name}`.trim(),
     canvasHelp:
-      'N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, brackets turn, Delete deletes.',
+      'N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, brackets or Ctrl and arrows turn, Delete deletes.',
     kinds: {
       robot: 'Robot',
       wall: 'Wall',

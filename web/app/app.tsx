@@ -54,7 +54,7 @@ function Desk() {
       <TopBar />
       <Notices />
       <div className="app__main">
-        <Suspense fallback={null}>
+        <Suspense fallback={<p className="placeholder placeholder--late">{text.editor.opening}</p>}>
           <Main />
         </Suspense>
       </div>

@@ -364,7 +364,7 @@ export const text = {
     run: 'Run',
     pause: 'Pause',
     step: 'Step',
-    runs: 'runs',
+    runs: 'running',
     asFast: 'As fast as it goes',
     speed: (speed: number) => (speed === 0 ? 'max' : `${speed}×`),
     measured: (real: number) => `measured ${real.toFixed(1)}×`,
@@ -589,7 +589,7 @@ export const text = {
     oldRuns: (time: string | null) =>
       `The ${time === null ? 'earlier script' : `script of ${time}`} is still on the robot. This one is not uploaded while it has an error.`,
     older: (time: string | null) =>
-      `The ${time === null ? 'earlier script' : `script of ${time}`} is running. Upload this one to run it.`,
+      `The ${time === null ? 'earlier script' : `script of ${time}`} is on the robot. Upload this one to run it.`,
     fault: (what: string, line: number | undefined) =>
       `The node stopped${line === undefined ? '' : ` at line ${line}`}: ${what}`,
     disk: 'The file changed on disk.',
@@ -699,7 +699,7 @@ export const text = {
     nothingToRedo: 'Nothing was undone in this run.',
     canvas: (name: string) => `World ${name}`.trim(),
     canvasHelp:
-      'N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, brackets turn, Delete deletes.',
+      'N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, brackets or Ctrl and arrows turn, Delete deletes.',
     kinds: {
       robot: 'Robot',
       wall: 'Wall',

@@ -5,6 +5,7 @@ import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
 import type { Studio } from '../core/studio';
 import { revealPanel, toast, update } from '../core/window_state';
+import { partOf } from '../core/paths';
 import { countsOf } from '../core/findings';
 import { text } from './text';
 import { useLink, usePart, useSettings, useStudio, useTopic, useWindow } from './hooks';
@@ -113,7 +114,11 @@ function useUnsentWork(): void {
         toast(studio.window, 'error', text.documents.refused(doc, refusal)),
       ),
       studio.left.on(({ folder, docs }) =>
-        toast(studio.window, 'error', text.documents.left(folder, docs)),
+        toast(
+          studio.window,
+          'error',
+          text.documents.left(folder, [...new Set(docs.map((doc) => partOf(doc).file))]),
+        ),
       ),
     ];
     return () => {

@@ -99,7 +99,7 @@ describe('what was typed', () => {
   test('IsTakenFromFieldsBeforeItIsSent', async () => {
     const { documents, last, answer, enter } = make();
     const { type } = await enter('a');
-    const end = documents.fields.add({ settle: () => (type('typed'), end(), true) });
+    const end = documents.fields.add({ doc: null, settle: () => (type('typed'), end(), true) });
     const flushed = documents.flushAll();
     expect(last('doc.edit')?.in['changes']).toEqual([{ from: 0, to: 0, text: 'typed' }]);
     await answer('doc.edit', { version: 2 });
@@ -108,10 +108,10 @@ describe('what was typed', () => {
   });
   test('AndIsRefusedStaysAndIsAskedFor', () => {
     const { documents } = make();
-    documents.fields.add({ settle: () => false });
+    documents.fields.add({ doc: 'a', settle: () => false });
     expect(documents.fields.settle()).toBe(false);
     expect(documents.isUnsent).toBe(true);
-    expect(documents.waits('any')).toBe(true);
+    expect([documents.waits('a'), documents.waits('b')]).toEqual([true, false]);
   });
   test('InAnotherFileIsNoReasonNotToSaveThisOne', async () => {
     const { documents, answer, refuse, enter } = make();

@@ -7,7 +7,7 @@ import { Emitter } from './emitter';
 import { Fields } from './session/fields';
 import type { OpenDocument } from './session/open';
 import type { Ended } from './session/sync';
-import type { Refusal } from './session/text_session';
+import type { Refusal, TextSession } from './session/text_session';
 import type { DocLink } from './session/wire';
 import type { TopicCache } from './topics';
 
@@ -81,10 +81,10 @@ export class Documents {
     return this.fields.isTyped || [...this.entries.values()].some(isUnsent);
   }
 
-  /** The same for one file; a field may belong to any. */
+  /** The same for one file. */
   waits(doc: Doc): boolean {
     const entry = this.entries.get(doc);
-    return this.fields.isTyped || (entry !== undefined && isUnsent(entry));
+    return this.fields.isTypedFor(doc) || (entry !== undefined && isUnsent(entry));
   }
 
   /**
@@ -116,6 +116,11 @@ export class Documents {
     return looked
       .slice(0, kSeenMax)
       .flatMap(({ doc, there }) => (there ? { doc, ...there.sync.confirmed } : []));
+  }
+
+  /** The file of a session; it may have got another name. */
+  docOf(session: TextSession): Doc | null {
+    return [...this.entries.values()].find(({ there }) => there?.session === session)?.doc ?? null;
   }
 
   /** Why what was done in a file is not with the server, if that is so. */

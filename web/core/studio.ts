@@ -43,6 +43,8 @@ export class Studio {
   readonly watched = new PickList();
   /** Another project is open, and in that one is something that the server does not have. */
   readonly left = new Emitter<{ folder: string; docs: readonly Doc[] }>();
+  /** The project was opened while this page was there. */
+  wasOpenedHere = false;
   /** Of the project that is looked at; '' if there is none, null until the server has said it. */
   private folder: string | null = null;
   /** What the server calls this page, or did when it was last heard. */
@@ -120,6 +122,7 @@ export class Studio {
     const before = this.folder;
     this.folder = folder;
     if (before === null) return;
+    this.wasOpenedHere = true;
     const unsent = this.documents.leave(before);
     if (unsent.length > 0) this.left.emit({ folder: before, docs: unsent });
     this.past.closeTrace();

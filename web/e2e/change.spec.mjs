@@ -56,7 +56,7 @@ async function runs(/** @type {Studio} */ studio) {
   const live = page.getByRole('complementary', { name: 'What the plan does' });
   await live.getByRole('button', { name: 'Start' }).click();
   await reads(live, /stay/);
-  await reads(live, /activation 1/);
+  await reads(live, /step 1 of the run/);
   return live;
 }
 

@@ -268,7 +268,7 @@ test('a commit, and the version that runs, are compared', project, async (studio
   await page.getByRole('switch', { name: 'What it does' }).click();
   const live = page.getByRole('complementary', { name: 'What the plan does' });
   await live.getByRole('button', { name: 'Start' }).click();
-  await reads(live, /activation 1/);
+  await reads(live, /step 1 of the run/);
   await page.getByRole('group', { name: /^hold, actor/ }).focus();
   await press('Space', 'Control+d');
   const before = page.getByRole('status').filter({ hasText: 'Saving changes the running plan' });

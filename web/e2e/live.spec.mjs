@@ -130,7 +130,7 @@ test('what the formulas gave is below the drawing', rounds, async (studio) => {
   await element(page, 'rest, actor Wait').focus();
   await press('F5');
   const line = page.getByLabel('What works now');
-  await reads(line, /rest\s+activation \d+\s+seconds 0\.1 s/);
+  await reads(line, /rest\s+step \d+ of the run\s+seconds 0\.1 s/);
   await press('Shift+F5');
 });
 

@@ -14,7 +14,7 @@ test(
     await seen(live);
     await live.getByRole('button', { name: 'Start' }).click();
     await reads(live, /running/);
-    await reads(live, /activation \d/);
+    await reads(live, /step \d+ of the run/);
     await live.getByRole('button', { name: 'Pause' }).click();
     await reads(live, /paused/);
     await live.getByRole('button', { name: 'Next actor' }).click();

@@ -82,7 +82,7 @@ test(
     const trace = await savedTrace(studio);
     const actor = actorAt(trace, t);
     const live = page.getByRole('complementary', { name: 'What the plan does' });
-    await reads(live, new RegExp(`${actor.actor}[^]*activation ${actor.activation}\\b`));
+    await reads(live, new RegExp(`${actor.actor}[^]*step ${actor.activation} of the run`));
     await reads(
       live,
       new RegExp(`since ${(t - actor.t).toFixed(1)} s|${(t - actor.t).toFixed(1)} s`),
@@ -313,7 +313,7 @@ test('a trace that was saved is opened without a run', wall, async (studio) => {
   await page.getByRole('treeitem', { name: /WallFollow-1\.trace\.jsonl/ }).dblclick();
   await reads(bar(page), /Trace WallFollow-1\.trace\.jsonl\.\s*Everything shows 0\.000 s/);
   const live = page.getByRole('complementary', { name: 'What the plan does' });
-  await reads(live, new RegExp(`${actorAt(trace, 0).actor}[^]*activation 1\\b`));
+  await reads(live, new RegExp(`${actorAt(trace, 0).actor}[^]*step 1 of the run`));
   await press('Escape');
   await gone(bar(page));
 });

@@ -67,6 +67,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   const extent = useRef<Extent>({ width: 0, height: 0 });
   const before = useRef<Opened | null>(null);
   const closed = useRef(new Set<Doc>());
+  const [keys] = useState(() => new WeakMap<Model, string>());
 
   useLayoutEffect(() => {
     if (!ready || !frameRef.current) return;
@@ -75,14 +76,13 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     const plan = planOf(layout, small, lacks);
     const next = openLayout(studio, { plan, key }, nonce > 0, extent.current);
     const opened = { model: next, plan };
-    if (before.current) {
-      carryDocuments(studio, before.current, opened, closed.current);
-      keepFocus(studio);
-    }
+    if (before.current) carryDocuments(studio, before.current, opened, closed.current);
+    noteFirst(studio, next);
+    if (mayTakeFocus(studio)) keepFocus(studio);
     before.current = opened;
-    notePlan(studio, next);
+    keys.set(next, key);
     setMade({ model: next, key });
-  }, [studio, layout, small, lacks, key, nonce, ready, frameRef]);
+  }, [studio, layout, small, lacks, key, keys, nonce, ready, frameRef]);
 
   const model = made?.model ?? null;
   useFit(frameRef, model, extent);
@@ -90,11 +90,11 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   useReveal(studio, made?.key === key ? made.model : null);
   usePausedPlan(model);
   useNames(studio, model);
-  // The model of the layout before may still change, and is kept as that.
-  const keep = useKeep(studio, made?.key ?? key);
+  const keep = useKeep(studio, keys);
   const changed = useCallback(
     (changedModel: Model, action: Action) => {
       noteClosed(closed.current, action);
+      if (action.type === Actions.SELECT_TAB) growTiny(changedModel, action.data['tabNode']);
       keep(changedModel, action);
     },
     [keep],
@@ -173,10 +173,17 @@ function useFit(
   }, [frame, model, extent]);
 }
 
-/** Tells which document is looked at, and keeps the layout a moment after the last change, or when the page goes. */
-function useKeep(studio: Studio, key: string): (model: Model, action: Action) => void {
+/**
+ * Tells which document is looked at, and keeps the layout a moment after the last change, or when the
+ * page goes. The model of the layout before may still change: each is kept under its own key.
+ */
+function useKeep(
+  studio: Studio,
+  keys: WeakMap<Model, string>,
+): (model: Model, action: Action) => void {
   const cancel = useRef<(() => void) | null>(null);
   const waiting = useRef<(() => void) | null>(null);
+  const last = useRef<Model | null>(null);
   useEffect(() => {
     const leaves = () => waiting.current?.();
     addEventListener('pagehide', leaves);
@@ -185,7 +192,10 @@ function useKeep(studio: Studio, key: string): (model: Model, action: Action) =>
   return useCallback(
     (model, action) => {
       noteShown(studio, model);
-      if (action.type === Actions.SET_ACTIVE_TABSET) return;
+      const key = keys.get(model);
+      if (action.type === Actions.SET_ACTIVE_TABSET || key === undefined) return;
+      if (last.current !== model) waiting.current?.();
+      last.current = model;
       const put = () => {
         waiting.current = null;
         const rect = model.getRootRow()?.getRect();
@@ -200,7 +210,7 @@ function useKeep(studio: Studio, key: string): (model: Model, action: Action) =>
       cancel.current = studio.world.later(kKeepMs, put);
       waiting.current = put;
     },
-    [studio, key],
+    [studio, keys],
   );
 }
 
@@ -210,17 +220,15 @@ export function noteShown(studio: Studio, model: Model): void {
   if (doc !== null) update(studio.window, (draft) => void (draft.doc = doc));
 }
 
-/** Before anything was clicked F5 is for the plan that the window opens with. */
-function notePlan(studio: Studio, model: Model): void {
+/** Before anything was clicked F5 and the keyboard are for what the window opens with, a plan first. */
+function noteFirst(studio: Studio, model: Model): void {
   if (studio.window.getState().doc !== null) return;
-  const plans = documentTabs(model).filter(([id, doc]) => {
+  const shown = documentTabs(model).filter(([id]) => {
     const area = model.getNodeById(id)?.getParent();
-    return (
-      kindOf(doc) === 'plan' && area instanceof TabSetNode && area.getSelectedNode()?.getId() === id
-    );
+    return area instanceof TabSetNode && area.getSelectedNode()?.getId() === id;
   });
-  const [first] = plans;
-  if (first) update(studio.window, (draft) => void (draft.doc = first[1]));
+  const [, first] = shown.find(([, doc]) => kindOf(doc) === 'plan') ?? shown[0] ?? [];
+  if (first !== undefined) update(studio.window, (draft) => void (draft.doc = first));
 }
 
 function useReveal(studio: Studio, model: Model | null): void {
@@ -285,6 +293,18 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
   noteShown(studio, model);
 }
 
+/** Pixels: the tab, and two rows. */
+const kTiny = 110;
+
+/** A panel that somebody wants to see, and of which there is hardly more than its tab. */
+function growTiny(model: Model, tab: unknown): void {
+  const id = String(tab);
+  const least = panelOf(id.replace(/^panel:/, ''))?.least ?? 0;
+  const area = model.getNodeById(id)?.getParent();
+  if (area instanceof TabSetNode && area.getRect().height < Math.min(kTiny, least))
+    growArea(model, id, least);
+}
+
 /** A panel that shares its area with documents: one that shows itself must not cover what is worked on. */
 function hidesDocument(area: Node | undefined): boolean {
   return area instanceof TabSetNode && area.getSelectedNode()?.getId().startsWith('doc:') === true;
@@ -335,6 +355,12 @@ function focusInTab(id: string): boolean {
   if (!target || target.offsetParent === null) return false;
   target.focus();
   return true;
+}
+
+/** Not in a page that was only loaded: the first key would be typed. A finger opens a project without keys on the screen. */
+function mayTakeFocus({ window: store, wasOpenedHere }: Studio): boolean {
+  const isTouched = matchMedia('(pointer: coarse)').matches;
+  return store.getState().isLayoutChosen || (wasOpenedHere && !isTouched);
 }
 
 /** Another layout recreates its panels: the focus stays in the document, unless something else has it. */

@@ -18,7 +18,8 @@ export default function PalettePanel() {
   const studio = useStudio();
   const drives = useDrives();
   const { shown } = usePlanDesk(studio);
-  const toolboxes = useTopic('templates', {})?.toolboxes ?? [];
+  const told = useTopic('templates', {});
+  const toolboxes = told?.toolboxes ?? [];
   const [typed, type] = useState('');
   const groups = matching(toolboxes, typed);
   const count = toolboxes.reduce((sum, one) => sum + one.templates.length, 0);
@@ -46,7 +47,9 @@ export default function PalettePanel() {
           <ToolboxList key={group.name} group={group} may={may} />
         ))}
         <SubPlans may={may} typed={typed} />
-        {groups.length === 0 ? <Quiet>{words.none(typed)}</Quiet> : null}
+        {groups.length === 0 ? (
+          <Quiet>{told ? words.none(typed) : text.editor.opening}</Quiet>
+        ) : null}
         {typed === '' ? (
           <button
             type="button"
@@ -69,7 +72,7 @@ export default function PalettePanel() {
         ) : null}
         {typed === '' ? <NewTemplateButton /> : null}
       </div>
-      {shown ? null : <NoPlan />}
+      {shown || !told ? null : <NoPlan />}
     </div>
   );
 }

@@ -1,5 +1,9 @@
-import { useEffect, useRef, useState, type KeyboardEvent } from 'react';
+import { createContext, useContext, useEffect, useRef, useState, type KeyboardEvent } from 'react';
+import type { Doc } from '../../protocol/messages';
 import { useStudio } from '../hooks';
+
+/** The file that the fields inside change; null: none, as those of breakpoints. */
+export const FieldsOf = createContext<Doc | null>(null);
 
 /** What is typed into a field until it counts: Enter and leaving take it, Escape forgets it. */
 export interface Draft {
@@ -46,12 +50,13 @@ export function useDraft(value: string, take: (typed: string) => boolean | void)
  */
 export function useTyped(isTyped: boolean, take: () => boolean): void {
   const { fields } = useStudio().documents;
+  const doc = useContext(FieldsOf);
   const settle = useRef(take);
   useEffect(() => {
     settle.current = take;
   });
   useEffect(
-    () => (isTyped ? fields.add({ settle: () => settle.current() }) : undefined),
-    [fields, isTyped],
+    () => (isTyped ? fields.add({ doc, settle: () => settle.current() }) : undefined),
+    [fields, doc, isTyped],
   );
 }

@@ -111,3 +111,12 @@ test('two presses in one situation choose once, and an answer after the end coun
   await new Promise((resolve) => setImmediate(resolve));
   expect(trying.answer).toBeNull();
 });
+
+test('a mistake in the plan is told without the folder of this computer', async () => {
+  const trying = new Trying(() =>
+    Promise.reject(new Error('/home/me/P.plan.json:12:3: error: drive: it leads nowhere [P17]')),
+  );
+  trying.start('P.plan.json');
+  await new Promise((resolve) => setImmediate(resolve));
+  expect(trying.trouble).toBe('P.plan.json:12:3: drive: it leads nowhere [P17]');
+});

@@ -118,7 +118,7 @@ export class Trying {
       this.typed = {};
     } catch (problem) {
       if (number !== this.asked) return;
-      this.trouble = whyOf(problem);
+      this.trouble = sentenceOf(whyOf(problem));
     }
     this.waits = false;
     this.changed.emit();
@@ -149,3 +149,8 @@ function valueOf({ type }: Output, typed: string): string | number | boolean | u
 export const tryingOf: (studio: Studio) => Trying = deskFor(
   (studio: Studio) => new Trying((input) => studio.send('plan.try', input)),
 );
+
+/** As a terminal has it, "/home/me/P.plan.json:12:3: error: …", without the folder and the word. */
+function sentenceOf(why: string): string {
+  return why.replace(/^\S*\/(?=[^/\s]+:\d+:\d+: )/, '').replace(/^(\S+:\d+:\d+: )error: /, '$1');
+}

@@ -1,9 +1,12 @@
 // Fields in which something is typed that does not count yet. Save, Run, Check and leaving take it
 // first: see Documents.flushAll.
 
+import type { Doc } from '../../protocol/messages';
 import { Emitter } from '../emitter';
 
 export interface TypedField {
+  /** The file that it changes; null: none. */
+  readonly doc: Doc | null;
   /** Takes what is typed; false: it is refused, and stays in its field. */
   settle(): boolean;
 }
@@ -24,6 +27,10 @@ export class Fields {
 
   get isTyped(): boolean {
     return this.typed.size > 0;
+  }
+
+  isTypedFor(doc: Doc): boolean {
+    return [...this.typed].some((field) => field.doc === doc);
   }
 
   /** True if all was taken. */

@@ -2,6 +2,7 @@ import type { LogPoint } from '../../../core/logs';
 import { useStudio } from '../../hooks';
 import { shownView } from '../../views/script/views';
 import { logWords as words } from './words';
+import '../../look/lists.css';
 
 /** Why it was not answered; what is not listed; the line as it was, if it is another by now. */
 export function PointNotes({ point, trouble }: { point: LogPoint; trouble: string }) {

@@ -13,6 +13,7 @@ import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { CommandItem, StudioMenu } from '../../parts/menu';
 import { words } from './words';
+import '../../look/robot.css';
 
 const icon = { size: 14, stroke: kStroke };
 

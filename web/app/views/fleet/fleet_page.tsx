@@ -12,6 +12,7 @@ import { RolloutPanel } from './rollout_panel';
 import { text } from '../../text';
 import { words } from './words';
 import '../../look/fleet.css';
+import '../../look/robot.css';
 
 /** Many robots at a glance: what each does, what they are told, what happened. */
 export default function FleetPage() {

@@ -17,7 +17,7 @@ export const planWords = {
   },
   levels: 'Plans inside of each other',
   active: 'Active',
-  activation: (count: number) => `activation ${count}`,
+  activation: (count: number) => `step ${count} of the run`,
   since: (seconds: string) => `${seconds} s`,
   noActor: 'no actor yet',
   inputs: 'Inputs',

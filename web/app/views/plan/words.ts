@@ -58,7 +58,7 @@ export const drawWords = {
   active: {
     label: 'What works now',
     show: (actor: string) => `Show ${actor} in the drawing`,
-    activation: (count: number) => `activation ${count}`,
+    activation: (count: number) => `step ${count} of the run`,
   },
   break: {
     title: 'Breakpoints',

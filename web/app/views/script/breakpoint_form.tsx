@@ -7,6 +7,7 @@ import { Button } from '../../parts/button';
 import { useTyped } from '../../parts/use_draft';
 import { text } from '../../text';
 import { whyOf } from '../../../core/why';
+import '../../look/lists.css';
 
 const words = text.editor;
 

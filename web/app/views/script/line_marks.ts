@@ -15,6 +15,7 @@ import {
   gutter,
   gutterLineClass,
   GutterMarker,
+  lineNumbers,
   WidgetType,
   type DecorationSet,
 } from '@codemirror/view';
@@ -100,33 +101,36 @@ const breakMarkers = StateField.define<RangeSet<GutterMarker>>({
   },
 });
 
-/** toggle: a click or tap beside a line; edit: with the other button, or a long touch. */
+/** toggle: a click or tap on the number of a line, or beside it; edit: with the other button, or a long touch. */
 export function lineMarks(act: {
   toggle(line: number): void;
   edit(line: number): void;
 }): Extension {
-  const lineAt = (view: EditorView, at: number) => view.state.doc.lineAt(at).number;
+  const lineAt = (view: EditorView, { from }: { from: number }) =>
+    view.state.doc.lineAt(from).number;
+  const domEventHandlers = {
+    mousedown(view: EditorView, block: { from: number }, event: Event) {
+      const mouse = event as MouseEvent;
+      if (mouse.button === 0 && !mouse.altKey) act.toggle(lineAt(view, block));
+      else act.edit(lineAt(view, block));
+      return true;
+    },
+    contextmenu(view: EditorView, block: { from: number }, event: Event) {
+      event.preventDefault();
+      // A mouse has said so with its button; a finger that stays says it here alone.
+      if ((event as PointerEvent).pointerType === 'touch') act.edit(lineAt(view, block));
+      return true;
+    },
+  };
   return [
     breakMarkers,
     gutter({
       class: 'cm-breaks',
       markers: (view) => view.state.field(breakMarkers),
       initialSpacer: () => new Disc({ line: 0, kind: 'on', label: '', note: '' }),
-      domEventHandlers: {
-        mousedown(view, block, event) {
-          const mouse = event as MouseEvent;
-          if (mouse.button === 0 && !mouse.altKey) act.toggle(lineAt(view, block.from));
-          else act.edit(lineAt(view, block.from));
-          return true;
-        },
-        contextmenu(view, block, event) {
-          event.preventDefault();
-          // A mouse has said so with its button; a finger that stays says it here alone.
-          if ((event as PointerEvent).pointerType === 'touch') act.edit(lineAt(view, block.from));
-          return true;
-        },
-      },
+      domEventHandlers,
     }),
+    lineNumbers({ domEventHandlers }),
     chips,
     breakNotes,
     standing,

@@ -5,6 +5,7 @@ import { useDrives, useStudio } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
+import { FieldsOf } from '../../parts/use_draft';
 import { text } from '../../text';
 import { useModel, type ShownWorld } from './desk';
 import { EntryForm } from './entry_form';
@@ -20,6 +21,7 @@ const words = text.world;
 /** What is chosen in a world, to be changed exactly. */
 export function ThingForm({ world }: { world: ShownWorld }) {
   const { model, file } = world;
+  const { documents } = useStudio();
   useModel(model);
   useFile(world);
   const thing = model.chosen;
@@ -30,21 +32,23 @@ export function ThingForm({ world }: { world: ShownWorld }) {
   return (
     <section className="props" key={key ?? 'world'} aria-label={text.panels.properties}>
       <Head world={world} entry={entry} />
-      <div className="props__fields">
-        {file && entry !== null ? (
-          <EntryForm file={file} id={entry} model={model} />
-        ) : file && key !== null ? (
-          partOfKey(key)?.list === 'timeline' ? (
-            <EntryForm file={file} id={key} model={model} />
-          ) : (
-            <FileForm file={file} id={key} />
-          )
-        ) : file ? (
-          <WorldForm file={file} />
-        ) : thing ? (
-          <LiveForm model={model} thing={thing} />
-        ) : null}
-      </div>
+      <FieldsOf value={file && documents.docOf(file.session)}>
+        <div className="props__fields">
+          {file && entry !== null ? (
+            <EntryForm file={file} id={entry} model={model} />
+          ) : file && key !== null ? (
+            partOfKey(key)?.list === 'timeline' ? (
+              <EntryForm file={file} id={key} model={model} />
+            ) : (
+              <FileForm file={file} id={key} />
+            )
+          ) : file ? (
+            <WorldForm file={file} />
+          ) : thing ? (
+            <LiveForm model={model} thing={thing} />
+          ) : null}
+        </div>
+      </FieldsOf>
     </section>
   );
 }

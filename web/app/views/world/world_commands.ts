@@ -68,8 +68,13 @@ export function worldCommands(studio: Studio): Command[] {
     arrow('world.farRight', 'Shift+ArrowRight', 1, 0, true),
     arrow('world.farUp', 'Shift+ArrowUp', 0, 1, true),
     arrow('world.farDown', 'Shift+ArrowDown', 0, -1, true),
-    make('world.turnLeft', ['['], ({ model }) => turn(model, kTurn), { may: turns }),
-    make('world.turnRight', [']'], ({ model }) => turn(model, -kTurn), { may: turns }),
+    // Brackets are typed with AltGr on many keyboards, which no command is on.
+    make('world.turnLeft', ['[', 'Ctrl+ArrowLeft'], ({ model }) => turn(model, kTurn), {
+      may: turns,
+    }),
+    make('world.turnRight', [']', 'Ctrl+ArrowRight'], ({ model }) => turn(model, -kTurn), {
+      may: turns,
+    }),
     make('world.put', ['Enter'], ({ model }) => putDown(model), {
       may: ({ model }) => model.placing !== null,
       hidden: true,

@@ -1,6 +1,7 @@
 import { EdgeLabelRenderer, useStore } from '@xyflow/react';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { nameSpot } from '../../../../core/plan/strokes';
+import { useWindow } from '../../../hooks';
 import { useBoard } from '../plan_desk';
 import { useLive } from './live_store';
 
@@ -21,10 +22,12 @@ export function ArrowNames({ board }: { board: PlanBoard }) {
 /** However small the drawing is, its letters are not smaller than those of a form. */
 function ArrowName(props: { board: PlanBoard; id: string; is: 'near' | 'taken' }) {
   const { board, id, is } = props;
-  const scale = useStore(({ transform: [, , zoom] }) => Math.max(1, 1 / zoom));
+  const near = useStore(({ transform: [, , zoom] }) => 1 / zoom);
+  const scale = Math.max(1, near);
   const route = board.drawing.routes.get(id);
   const name = board.arrow(id)?.outcome ?? '';
-  const room = { size: sizeOf(name, scale), boxes: boxesOf(board) };
+  const letters = useWindow(({ layout }) => layout === 'Present') ? kPresented * near : scale;
+  const room = { size: sizeOf(name, letters), boxes: boxesOf(board) };
   const spot = route && nameSpot(route, room);
   if (!spot || name === '') return null;
   const transform = `translate(${spot.x}px, ${spot.y}px) scale(${scale}) translate(-50%, -50%)`;
@@ -35,8 +38,10 @@ function ArrowName(props: { board: PlanBoard; id: string; is: 'near' | 'taken' }
   );
 }
 
-const boxesOf = ({ scene: { start, actors } }: PlanBoard) =>
-  [start, ...actors].map((block) => block.whole);
+const boxesOf = ({ scene: { start, actors }, drawing }: PlanBoard) => [
+  ...[start, ...actors].map((block) => block.whole),
+  ...drawing.tags.map((tag) => tag.box),
+];
 
 /** On the canvas; letters are not wider than kLetter. */
 function sizeOf(name: string, scale: number): { width: number; height: number } {
@@ -44,5 +49,7 @@ function sizeOf(name: string, scale: number): { width: number; height: number } 
 }
 
 const kLetter = 6.2;
+/** As large as look/present.css has them, on the screen. */
+const kPresented = 20 / 11;
 const kPadding = 14;
 const kHeight = 20;

@@ -1,5 +1,6 @@
 import type { ReactNode } from 'react';
 import type { PlanBoard } from '../../../../core/plan/board';
+import { FieldsOf } from '../../../parts/use_draft';
 import { DotsContext, useDots } from './break_dots';
 import { DistanceContext, type Distance } from './distance';
 import { LiveContext, useLiveStore } from './live_store';
@@ -19,9 +20,11 @@ export function CanvasContexts(props: {
     <LiveContext value={useLiveStore(board)}>
       <ConnectContext value={connect}>
         <NoteContext value={useNoteActs(board, drives)}>
-          <DotsContext value={useDots(board)}>
-            <DistanceContext value={distance}>{children}</DistanceContext>
-          </DotsContext>
+          <FieldsOf value={board.doc}>
+            <DotsContext value={useDots(board)}>
+              <DistanceContext value={distance}>{children}</DistanceContext>
+            </DotsContext>
+          </FieldsOf>
         </NoteContext>
       </ConnectContext>
     </LiveContext>

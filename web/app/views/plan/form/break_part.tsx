@@ -10,6 +10,7 @@ import { text } from '../../../text';
 import { drawWords } from '../words';
 import { changeBreak, setBreak, toggleBreak } from '../break_acts';
 import { whyOf } from '../../../../core/why';
+import '../../../look/lists.css';
 
 const words = drawWords.break;
 

@@ -3,6 +3,7 @@ import type { PlanBoard } from '../../../../core/plan/board';
 import { kStart } from '../../../../core/plan/model';
 import { useDrives } from '../../../hooks';
 import { Quiet } from '../../../parts/blank';
+import { FieldsOf } from '../../../parts/use_draft';
 import { text } from '../../../text';
 import { drawWords as words } from '../words';
 import { RoleShape } from '../canvas/template_icon';
@@ -33,7 +34,9 @@ export function PlanForm({ plan }: { plan: ShownPlan }) {
       {board.selection.size > 1 ? (
         <p className="props__many">{words.several(board.selection.size)}</p>
       ) : null}
-      <Chosen board={board} chosen={key} disabled={!drives} />
+      <FieldsOf value={board.doc}>
+        <Chosen board={board} chosen={key} disabled={!drives} />
+      </FieldsOf>
     </section>
   );
 }

@@ -6,6 +6,7 @@ import { pressFix } from '../../../commands/problem_commands';
 import { useDrives, useStudio, useTopic } from '../../../hooks';
 import { Button } from '../../../parts/button';
 import { FindingButton } from '../finding_button';
+import '../../../look/palette.css';
 
 /** What is wrong with one member of the file. */
 export function useFindingsAt(doc: Doc, keys: Keys): Finding[] {

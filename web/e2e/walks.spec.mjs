@@ -1,0 +1,120 @@
+// What newcomers met on their first walks: with keys alone, with a finger, in a window on its end.
+import assert from 'node:assert/strict';
+import { makeProject, twoNodes } from './support/robots.mjs';
+import { boxOf, focused, reads, seen, test, until } from './support/studio.mjs';
+/** @import { TestContext } from './support/studio.mjs' */
+
+const upright = { width: 820, height: 1180, touch: true };
+const kWait = { template: 'Wait', in: { seconds: 1 }, states: { Done: '@terminate' } };
+const planOf = (/** @type {string} */ name) =>
+  JSON.stringify({
+    format: 'vagus-plan/1',
+    name,
+    start: { actor: 'wait' },
+    actors: { wait: kWait },
+    layout: { wait: [80, 96] },
+  });
+const twoPlans = (/** @type {TestContext} */ t) =>
+  makeProject(
+    t,
+    { name: 'T', plan: 'P.plan.json', scripts: ['s.aesl'] },
+    { 'P.plan.json': planOf('P'), 'Q.plan.json': planOf('Q') },
+  );
+const nodes = (/** @type {TestContext} */ t) =>
+  twoNodes(t, { left: 'var a = 0\na = 1\na = 2\n', right: '' });
+
+test(
+  'a project that was created by keys has the keyboard',
+  {},
+  async ({ page, press, type, editor }) => {
+    await press('Alt+n');
+    await focused(page.getByRole('textbox', { name: 'Name' }));
+    await type('keys');
+    await press('Enter');
+    await focused(editor('thymio-II'));
+    await press('Control+Home');
+    await type('# typed at once');
+    await reads(editor('thymio-II'), /# typed at once/);
+    // Another one begins in a sheet as small as on the start screen, also where that was never shown.
+    await page.reload();
+    await seen(editor('thymio-II'));
+    assert.equal(await page.evaluate(() => document.activeElement?.tagName), 'BODY');
+    await press('Alt+n');
+    const sheet = page.getByRole('dialog', { name: 'New project' }).locator('form');
+    assert.ok((await boxOf(sheet)).width <= 400);
+  },
+);
+
+test('what is half typed in a form is of its own file', { prepare: twoPlans }, async (studio) => {
+  const { page, layout, type, tab } = studio;
+  await layout('Draw');
+  await page.getByRole('treeitem', { name: 'Q.plan' }).or(tab('Project')).first().click();
+  await page.getByRole('treeitem', { name: 'Q.plan' }).dblclick();
+  await seen(page.getByRole('region', { name: 'Plan Q, drawn' }));
+  await page.getByRole('group', { name: /^wait, actor Wait/ }).click();
+  await page.getByRole('region', { name: 'Properties' }).getByLabel('seconds').click();
+  await type('5');
+  const mark = (/** @type {string} */ plan) =>
+    tab(new RegExp(`^${plan}`)).getByRole('img', { name: /saved/ });
+  await seen(mark('Q').and(page.getByRole('img', { name: /^not saved/ })));
+  await seen(mark('P').and(page.getByRole('img', { name: /^saved/ })));
+});
+
+test(
+  'in a window on its end a tap on a number shows a breakpoint',
+  { ...upright, prepare: nodes },
+  async ({ page, layout, editor }) => {
+    await layout('Script');
+    await seen(editor('left'));
+    const number = page.locator('.cm-lineNumbers .cm-gutterElement').filter({ hasText: /^3$/ });
+    await number.first().tap();
+    const disc = page.locator('.cm-breaks .disc[title^="Breakpoint on line 3"]');
+    await seen(disc);
+    assert.equal((await boxOf(disc)).width, 10);
+  },
+);
+
+test(
+  'a narrow list of variables shows whole names; a tap on one offers to watch it',
+  { ...upright, words: ['--example', 'thymio'] },
+  async ({ page, layout, tab }) => {
+    await layout('Script');
+    const list = page.getByRole('list', { name: 'Variables' });
+    const name = list.getByText('motor.right.target', { exact: true });
+    await seen(name);
+    assert.ok(await name.evaluate((one) => one.scrollWidth <= one.clientWidth), 'it is cut off');
+    await name.tap();
+    await list.getByRole('button', { name: 'Watch motor.right.target' }).tap();
+    await tab('Watch').tap();
+    await seen(page.getByRole('list', { name: 'Watch' }).getByText('motor.right.target'));
+  },
+);
+
+test(
+  'each layout keeps its own panels, however fast they are changed',
+  { prepare: twoPlans },
+  async ({ page, layout, tab }) => {
+    const names = async () =>
+      (await page.getByRole('tab').allInnerTexts()).map((one) => one.trim().split('\n')[0]);
+    await layout('Draw');
+    await seen(tab('Palette'));
+    for (let round = 0; round < 3; round++)
+      for (const name of ['Script', 'Debug', 'Draw', 'Present', 'Script', 'Draw']) {
+        await layout(name);
+        const other = page.getByRole('tab').filter({ hasNotText: /plan/ }).last();
+        if (round > 0 && (await other.isVisible())) await other.click();
+      }
+    await until('what was changed last is kept', async () => {
+      await page.reload();
+      await seen(page.getByRole('tab'));
+      return (
+        (await page.getByRole('radio', { name: 'Draw' }).isChecked()) && (await names()).length > 4
+      );
+    });
+    assert.ok((await names()).includes('Palette'), String(await names()));
+    assert.ok(!(await names()).includes('Variables'));
+    await layout('Script');
+    await seen(tab('Variables'));
+    assert.ok(!(await names()).includes('Palette'));
+  },
+);

@@ -17,7 +17,7 @@ RobotPlan::RobotPlan(session::RobotBus& robot)
 RobotPlan::~RobotPlan() {
     abort();
     const Time latest = begun_ + kPlansEndWithin;
-    while (!over() && now() < latest) step();
+    while (!over() && run_->now() < latest) step();
 }
 
 Result<std::unique_ptr<RobotPlan>> RobotPlan::load(session::RobotBus& robot) {
@@ -40,7 +40,9 @@ Result<std::unique_ptr<RobotPlan>> RobotPlan::load(session::RobotBus& robot) {
     return made;
 }
 
-Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Told told) {
+// Its trace is in times of the world.
+Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, Told told,
+                        Time at) {
     names_.emplace(robot_.session->common(), "the scripts of " + robot_.project.file);
     TRY(check_names(*names_, *plan_, "its"));
     if (!ears_) ears_.emplace(nodes_);  // in a second run it knows who is there
@@ -49,8 +51,14 @@ Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, 
     only_.reset();
     ended_.reset();
     begun_ = {};
+    began_at_ = at;
     options_.seed = seed;
-    options_.on_trace = std::move(told.line);
+    options_.on_trace = [at, line = std::move(told.line)](const plan::TraceEvent& event) {
+        if (at == Time{}) return line(event);
+        plan::TraceEvent later = event;
+        later.at += at;
+        line(later);
+    };
     options_.passes_over = std::move(told.passes_over);
     told_of_sent_ = std::move(told.sent);
     options_.may_emit = [this](const run::BusEvent& event) { return names_->may_emit(event); };
@@ -71,7 +79,8 @@ Status RobotPlan::join(toolbox::Fleet* fleet) {
 
 void RobotPlan::hear(const debug::Event& event) {
     if (!ears_) return;
-    if (auto one = ears_->hear(event)) heard_.push_back(std::move(*one));
+    auto one = ears_->hear(event);  // also of a plan that is over: it may begin again
+    if (one && !over()) heard_.push_back(std::move(*one));
 }
 
 void RobotPlan::hear(run::BusEvent event) {
@@ -81,6 +90,27 @@ void RobotPlan::hear(run::BusEvent event) {
 void RobotPlan::step() {
     run_->step();
     if (run_->over()) ended_ = run_->finish();
+}
+
+Result<int> RobotPlan::slot_of(const std::string& name) const {
+    if (over()) return Error{Code::Unavailable, "no plan runs, which has its variables"};
+    const int slot = plan::find_variable(plan_->graph().plans.front(), name);
+    if (slot >= 0) return slot;
+    return Error{Code::NotFound, "the plan that runs has no variable " + name};
+}
+
+Result<plan::Value> RobotPlan::variable(const std::string& name) const {
+    const int slot = TRY(slot_of(name));
+    const plan::Value* const value = run_->variable(slot);
+    if (value != nullptr) return *value;
+    return Error{Code::Unavailable, "its plan has not begun yet"};
+}
+
+Status RobotPlan::set(const std::string& name, const plan::Value& value) {
+    const int slot = TRY(slot_of(name));
+    const auto& variables = plan_->graph().plans.front().variables;
+    run_->set(slot, TRY(plan::convert(value, variables[static_cast<size_t>(slot)].type)));
+    return Status::done();
 }
 
 // As it ends the robot is not told to move again.
@@ -98,7 +128,8 @@ std::vector<run::BusEvent> RobotPlan::begin() {
 void RobotPlan::emit(Time at, const run::BusEvent& event) {
     if (only_ && !only_->contains(event.name)) return;
     // Refused is only what a supervisor emits as it stops: may_emit() was not asked.
-    const Status sent = robot_.session->emit(event.name, event.arguments, at, event.cause);
+    const Status sent =
+        robot_.session->emit(event.name, event.arguments, began_at_ + at, event.cause);
     if (sent.ok() && told_of_sent_) told_of_sent_(event);
 }
 

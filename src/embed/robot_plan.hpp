@@ -49,9 +49,9 @@ public:
     static Result<std::unique_ptr<RobotPlan>> load(session::RobotBus& robot);
     ~RobotPlan() override;
 
-    // A run from time 0 on; `before` tells who is on the bus. The Error names events that the
-    // robot's scripts do not have.
-    Status begin(uint64_t seed, const std::vector<debug::Event>& before, Told told);
+    // A run from that time of the world on; `before` tells who is on the bus. The Error names
+    // events that the robot's scripts do not have.
+    Status begin(uint64_t seed, const std::vector<debug::Event>& before, Told told, Time at = {});
     // Whether a template of it asks the fleet.
     bool needs_fleet() const;
     // Before its first step: what its templates ask of the fleet; nullptr: there is none. The Error
@@ -62,13 +62,17 @@ public:
     void hear(run::BusEvent event);
 
     bool over() const { return ended_.has_value() || !run_; }
-    Time now() const { return run_->now(); }
+    // Of the world.
+    Time now() const { return began_at_ + run_->now(); }
     void step();
     void abort();
     // From now on what is random in its code is drawn from that seed.
     void reseed(uint64_t seed) {
         if (!over()) run_->reseed(seed);
     }
+    // Variables of the outermost plan, while it runs; a value is converted to the type.
+    Result<plan::Value> variable(const std::string& name) const;
+    Status set(const std::string& name, const plan::Value& value);
     // How it has ended; nothing while it runs.
     const std::optional<run::Ended>& ended() const { return ended_; }
     const std::string& name() const { return plan_->graph().plans.front().name; }
@@ -76,6 +80,7 @@ public:
 
 private:
     explicit RobotPlan(session::RobotBus& robot);
+    Result<int> slot_of(const std::string& name) const;
 
     // ---- run::Surroundings ----
     Time next() const override { return begun_ + sim::kNodeStep; }
@@ -97,7 +102,8 @@ private:
     std::optional<run::Ended> ended_;
     std::optional<std::set<std::string>> only_;  // what goes out once it is being stopped
     std::vector<run::BusEvent> heard_;
-    Time begun_{};
+    Time began_at_{};  // its own time 0
+    Time begun_{};     // of its own time, the last instant
 };
 
 }  // namespace vagus::embed

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/text.hpp"
-#include "embed/robot_plan.hpp"
-#include "fleet/limits.hpp"
 #include "run/traced_variables.hpp"
 #include "session/trace.hpp"
 #include "toolbox/fleet/fleet.hpp"
@@ -15,41 +12,6 @@ namespace vagus::embed {
 
 using session::NoteKind;
 using session::RobotBus;
-
-namespace {
-
-bool has_in_state(const RobotBus& robot, debug::ProgramState state) {
-    const std::vector<session::NodeState> nodes = robot.session->nodes();
-    return std::any_of(nodes.begin(), nodes.end(), [state](const auto& node) {
-        return node.has_script && node.state == state;
-    });
-}
-
-fleet::Shown shown(const RobotBus& robot) {
-    fleet::Shown shown;
-    for (const session::NodeState& node : robot.session->nodes()) {
-        if (node.fault.empty() || shown.problems.size() >= fleet::kProblemsMax) continue;
-        shown.problems.emplace_back(
-            utf8_prefix(node.name + ": " + node.fault, fleet::kLineBytesMax));
-    }
-    const bool runs = has_in_state(robot, debug::ProgramState::Running);
-    shown.state = !shown.problems.empty() ? "fault" : runs ? "running" : "stopped";
-    return shown;
-}
-
-std::vector<int16_t> values_of(const RobotBus& robot, const fleet::Tells& variable) {
-    for (const session::NodeState& node : robot.session->nodes()) {
-        if (node.name != variable.node) continue;
-        for (const auto& [name, values] : robot.session->script_variables(node.id)) {
-            if (name == variable.name) return {values.begin(), values.end()};
-        }
-        const auto values = robot.session->node_variable(node.robot, variable.name);
-        return {values.begin(), values.end()};
-    }
-    return {};
-}
-
-}  // namespace
 
 RobotsRun::RobotsRun(std::unique_ptr<session::WorldBuses> buses) : buses_(std::move(buses)) {}
 
@@ -71,6 +33,7 @@ Result<std::unique_ptr<RobotsRun>> RobotsRun::open(const RobotsOptions& options)
         return Error{added.error().code, options.world + ": robot " + robot.name + ": " +
                                              robot.project.file + ": " + added.error().what};
     }
+    for (size_t i = 0; i < made->plans_.size(); ++i) made->add_commands(i);
     return made;
 }
 
@@ -86,6 +49,7 @@ Status RobotsRun::add_plan(RobotBus& robot) {
 Status RobotsRun::start() {
     if (!has_projects()) return Status::done();
     (void)buses_->settle();
+    for (const auto& one : commands_) one->begin_again();
     // Plans of the run before ask their fleet a last time as their code is ended.
     const auto last = std::exchange(
         fleet_, std::make_unique<session::WorldFleet>(buses_->world().definition(), seed_, door_));
@@ -100,25 +64,32 @@ Status RobotsRun::start() {
     return Status::done();
 }
 
+RobotPlan::Told RobotsRun::told_by_plan(size_t index) {
+    RobotPlan::Told told{
+        .line = [this, index](const plan::TraceEvent& event) { see(index, event); }};
+    if (watcher_ == nullptr) return told;
+    told.passes_over = [this, index](const run::Raising& raising) {
+        return watcher_ != nullptr && watcher_->passes_over(index, raising);
+    };
+    told.sent = [this, index](const run::BusEvent& event) {
+        if (watcher_ != nullptr) watcher_->sent(index, event);
+    };
+    return told;
+}
+
+bool RobotsRun::asks_fleet(size_t index) const {
+    return plans_[index] && plans_[index]->needs_fleet();
+}
+
 Status RobotsRun::begin(size_t index) {
     RobotBus& robot = buses_->robots()[index];
     RobotPlan* const plan = plans_[index].get();
     const std::vector<debug::Event> before = robot.session->take_heard();
     if (plan != nullptr) {
-        RobotPlan::Told told{
-            .line = [this, index](const plan::TraceEvent& event) { see(index, event); }};
-        if (watcher_ != nullptr) {
-            told.passes_over = [this, index](const run::Raising& raising) {
-                return watcher_ != nullptr && watcher_->passes_over(index, raising);
-            };
-            told.sent = [this, index](const run::BusEvent& event) {
-                if (watcher_ != nullptr) watcher_->sent(index, event);
-            };
-        }
-        TRY(plan->begin(seed_ + robot.id.number, before, std::move(told)));
+        TRY(plan->begin(seed_ + robot.id.number, before, told_by_plan(index)));
     }
-    const bool asks = plan != nullptr && plan->needs_fleet();
-    TRY(fleet_->join(robot, ears_of(index), asks));
+    TRY(fleet_->join(robot, ears_of(index), asks_fleet(index)));
+    tell_version(index);
     if (plan != nullptr) TRY(plan->join(fleet_->asked_by(robot.id)));
     // What scripts say as they are loaded is for the fleet, too.
     for (const debug::Event& event : before) tell_fleet(robot, event, Time{});
@@ -167,45 +138,38 @@ void RobotsRun::add_ears_of_watcher(session::WorldFleet::Ears& ears, size_t inde
 
 session::WorldFleet::Ears RobotsRun::ears_of(size_t index) {
     RobotBus& robot = buses_->robots()[index];
-    RobotPlan* const plan = plans_[index].get();
     const auto hear = [this, index](const fleet::EmitOnBus& event, uint32_t frame) {
         hear_of_fleet(index, event, frame);
     };
-    const auto stop = [this, index, &robot, plan](const std::string& why) {
+    const auto stop = [this, index, &robot](const std::string& why) {
         say(robot, why + "; the robot stops, as its project says");
         if (watcher_) watcher_->stopped(index, why);
-        if (plan) plan->abort();
-        robot.session->stop_nodes();
+        if (deployer_.stopped) deployer_.stopped(index);
+        commands_[index]->stop([](const auto&) {});
     };
     session::WorldFleet::Ears ears{
         .hear = hear, .stop = stop, .say = [this, &robot](const std::string& text) {
             say(robot, text);
         }};
-    if (plan) {
-        ears.news = [this, index](const std::vector<session::FleetNews>& news) {
-            hear_news(index, news);
-        };
-    }
+    ears.news = [this, index](const std::vector<session::FleetNews>& news) {
+        if (plans_[index]) hear_news(index, news);
+    };
     if (watcher_) add_ears_of_watcher(ears, index);
-    if (door_) add_ears_of_broker(ears, robot);
+    if (door_) add_ears_of_broker(ears, index);
     return ears;
 }
 
-void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, RobotBus& robot) {
-    ears.shown = [&robot] { return shown(robot); };
-    ears.values = [&robot](const fleet::Tells& variable) { return values_of(robot, variable); };
-    ears.is_at_rest = [&robot] { return !has_in_state(robot, debug::ProgramState::Running); };
-    ears.obey = [this, &robot,
-                 stop = ears.stop](const fleet::Command& command) -> std::optional<fleet::Answer> {
-        if (command.verb == "stop") {
-            stop("the fleet says stop");
-            return std::nullopt;
-        }
-        if (command.verb != "emit") {
-            return fleet::Answer{.what = command.verb + " is no command for a robot of a world"};
-        }
-        const Status sent = robot.session->emit(command.event, command.values, buses_->now());
-        return sent.ok() ? fleet::Answer{.done = true} : fleet::Answer{.what = sent.error().what};
+void RobotsRun::add_ears_of_broker(session::WorldFleet::Ears& ears, size_t index) {
+    RobotCommands& commands = *commands_[index];
+    ears.shown = [&commands] { return commands.shown(); };
+    ears.values = [&commands](const fleet::Tells& variable) { return commands.values(variable); };
+    ears.obey = [this, index, &commands](const fleet::Command& command,
+                                         session::WorldFleet::Answered done) {
+        say(index, "the fleet says " + command.verb);
+        commands.obey(command, std::move(done));
+    };
+    ears.want = [this, index](const fleet::Want& want) {
+        if (deployer_.want) deployer_.want(index, want);
     };
 }
 
@@ -214,6 +178,7 @@ void RobotsRun::see(size_t index, const plan::TraceEvent& event) {
     if (told_) told_(index, event);
     if (watcher_) watcher_->line(index, event);
     if (traced_) buses_->trace(plan::format_trace(event, robot.name) + "\n");
+    commands_[index]->see(event);
     const auto* ended = std::get_if<plan::PlanEnded>(&event.what);
     if (ended == nullptr || run::level_of(event) > 0) return;
     std::string text = robot.name + ": the plan " + event.plan + " has ended (" +
@@ -308,8 +273,10 @@ void RobotsRun::hear(size_t index, Time at) {
     RobotBus& robot = buses_->robots()[index];
     for (const debug::Event& event : robot.session->take_heard()) {
         if (plans_[index]) plans_[index]->hear(event);
+        commands_[index]->hear(event);
         tell_fleet(robot, event, at);
     }
+    commands_[index]->tick();
 }
 
 void RobotsRun::tell_fleet(const RobotBus& robot, const debug::Event& event, Time at) {

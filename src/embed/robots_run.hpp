@@ -24,6 +24,8 @@
 #include "base/result.hpp"
 #include "debug/event.hpp"
 #include "embed/loaded_plan.hpp"
+#include "embed/robot_commands.hpp"
+#include "embed/robot_plan.hpp"
 #include "embed/robots_watcher.hpp"
 #include "plan/trace.hpp"
 #include "session/sim_session.hpp"
@@ -38,8 +40,6 @@ struct RobotsOptions {
     // Robots with a project are members at a real broker, in real time.
     std::optional<session::WorldFleet::Door> door = {};
 };
-
-class RobotPlan;
 
 class RobotsRun {
 public:
@@ -77,6 +77,28 @@ public:
     // Whether a plan has ended with an error.
     bool has_failed() const;
 
+    // ---- with a door: other versions of what robots run (serve/field/world_versions.hpp) ----
+    struct Deployer {
+        // Another version is wanted of it; it comes again at each connection. Within step().
+        std::function<void(size_t robot, const fleet::Want& want)> want;
+        // Somebody said stop, or it is no longer in its fleet: nothing starts by itself any more.
+        std::function<void(size_t robot)> stopped;
+        std::function<void(size_t robot, const std::string& why)> plan_failed;
+    };
+    void deploy_by(Deployer deployer) { deployer_ = std::move(deployer); }
+    // Of the robot at that place of buses().robots().
+    RobotCommands& commands(size_t robot) { return *commands_[robot]; }
+    // Between two steps, of a robot that was stopped: from then on it has that folder as project,
+    // in the fleet where it is. Nothing of it runs before it is started. The Error says what is
+    // wrong with which file.
+    Status open_project(size_t robot, const std::string& folder);
+    // What became of a version, for all who watch the fleet.
+    void deployed(size_t robot, const fleet::Version& version);
+    // How its plan is: "its plan runs"; empty: there is none.
+    std::string how_plan_is(size_t robot) const;
+    // A note of the run.
+    void say(size_t robot, const std::string& text) { say(buses_->robots()[robot], text); }
+
 private:
     explicit RobotsRun(std::unique_ptr<session::WorldBuses> buses);
     Status add_plan(session::RobotBus& robot);
@@ -90,13 +112,21 @@ private:
     void hear_news(size_t index, const std::vector<session::FleetNews>& news);
     void add_ears_of_watcher(session::WorldFleet::Ears& ears, size_t index);
     uint32_t number_of_message(uint32_t cause);
-    void add_ears_of_broker(session::WorldFleet::Ears& ears, session::RobotBus& robot);
+    void add_ears_of_broker(session::WorldFleet::Ears& ears, size_t index);
+    void add_commands(size_t index);
+    RobotPlan::Told told_by_plan(size_t index);
+    bool asks_fleet(size_t index) const;
+    Status begin_plan_again(size_t index);
+    void tell_version(size_t index);
     void see(size_t index, const plan::TraceEvent& event);
     void say(session::RobotBus& robot, const std::string& text);
 
     std::unique_ptr<session::WorldBuses> buses_;
     std::vector<std::unique_ptr<RobotPlan>> plans_;  // by place in buses().robots(); may be nullptr
-    std::unique_ptr<session::WorldFleet> fleet_;     // nullptr until start()
+    std::vector<std::unique_ptr<RobotCommands>> commands_;  // the same
+    std::vector<std::optional<fleet::Version>> versions_;   // the same: what was told of them
+    Deployer deployer_;
+    std::unique_ptr<session::WorldFleet> fleet_;  // nullptr until start()
     std::optional<session::WorldFleet::Door> door_;
     Listener told_;
     RobotsWatcher* watcher_ = nullptr;

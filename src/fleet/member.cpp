@@ -226,6 +226,11 @@ void Member::changed(const std::string& node, const std::string& name,
     telling.values = std::move(values);
 }
 
+void Member::tell_again(const std::string& node, const std::string& name) {
+    const auto found = telling_.find({node, name});
+    if (found != telling_.end()) found->second.news = true;
+}
+
 void Member::publish_variables() {
     for (auto& [place, telling] : telling_) {
         if (!telling.news || now_ < telling.due) continue;

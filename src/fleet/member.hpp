@@ -95,6 +95,8 @@ public:
     void show(const Shown& shown, Time now);
     // A variable that the project lists under `tell` has these values.
     void changed(const std::string& node, const std::string& name, std::vector<int16_t> values);
+    // Somebody asks for it: it is told also if it was told before.
+    void tell_again(const std::string& node, const std::string& name);
     // Of a command that was to be obeyed; once for each.
     void answer(const Command& command, Answer answer);
     // What became of the version that was wanted; the last one is told at each connection.

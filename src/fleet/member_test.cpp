@@ -426,6 +426,17 @@ TEST(MemberState, VariablesComeWhenTheyChangeAtMostFiveTimesASecond) {
     EXPECT_EQ(told[1].values, (std::vector<int16_t>{3}));
 }
 
+TEST(MemberState, AVariableThatSomebodyAsksForIsToldAgain) {
+    MemberCase c;
+    c.hold();
+    c.member.tell_again("drive", "speed");  // not known yet
+    c.member.changed("drive", "speed", {1});
+    c.tick(0s);
+    c.member.tell_again("drive", "speed");
+    c.tick(1s);
+    EXPECT_EQ(c.published<Variable>().size(), 2u);
+}
+
 // ---- commands ----
 
 Command start(const std::string& id, int64_t deadline, int64_t epoch = 7) {

@@ -54,6 +54,11 @@ public:
     // that does not fit its type is dropped. For on_trace and for actors' code.
     void set(int slot, plan::Value value) { sets_asked_.emplace_back(slot, std::move(value)); }
 
+    // Of the outermost plan, as it is now; nullptr: no plan has begun.
+    const plan::Value* variable(int slot) const {
+        return machine_.depth() > 0 ? &machine_.variable(0, slot) : nullptr;
+    }
+
     // ---- for a run that follows the clock of another: from on_trace and from Surroundings ----
     // What was decided took until then.
     void move_clock(Time to) { now_ = std::max(now_, to); }

@@ -269,8 +269,10 @@ void SimSession::begin_again() {
     rest_ = {};
     if (chaos_) chaos_->restart();
     events_.clear();
+    held_ = false;
     for (Node& node : nodes_) {
         node.fault.clear();
+        node.killed.clear();
         if (node.script && !node.script->program->bytecode.empty()) {
             enter(*node.script, Stage::Ready);
         }
@@ -359,7 +361,11 @@ void SimSession::hear_fault(Node& node, const debug::Fault& fault) {
         where = node.script->path + ":" + std::to_string(line);
     }
     const std::string sentence = where + ": " + fault.text;
-    if (fault.kind == debug::FaultKind::Killed) return;  // the script goes on with its next event
+    // The script goes on with its next event.
+    if (fault.kind == debug::FaultKind::Killed) {
+        node.killed = sentence;
+        return;
+    }
     node.fault = sentence;
     note(NoteKind::Fault, sentence);
 }
@@ -375,6 +381,7 @@ void SimSession::hear_done(Node& node, const debug::RequestDone& done) {
     }
     enter(script, Stage::Runs);
     node.fault.clear();
+    node.killed.clear();
     note(NoteKind::Loaded, script.path + " runs on " + label(node) + ", " +
                                std::to_string(script.program->bytecode.size()) + " words");
 }
@@ -399,7 +406,8 @@ void SimSession::warn(const std::vector<std::string>& lines) {
 std::vector<NodeState> SimSession::nodes() const {
     std::vector<NodeState> states;
     for (const Node& node : nodes_) {
-        NodeState state{node.robot, node.id, "", {}, node.script.has_value(), node.fault};
+        NodeState state{node.robot, node.id,    "", {}, node.script.has_value(),
+                        node.fault, node.killed};
         if (const debug::NodeView* view = network_.node(node.id)) {
             state.name = view->name;
             state.state = view->state;

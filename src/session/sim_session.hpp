@@ -97,7 +97,8 @@ struct NodeState {
     std::string name;  // empty until it described itself
     debug::ProgramState state = debug::ProgramState::Unknown;
     bool has_script = false;
-    std::string fault;  // the sentence, until the next program or reset
+    std::string fault;   // the sentence, until the next program or reset
+    std::string killed;  // the same: a handler that had not ended as the next event came
 };
 
 class SimSession {
@@ -170,6 +171,19 @@ public:
 
     // Stops all nodes of its robots, as a host does who presses Stop.
     void stop_nodes();
+
+    // ---- the nodes of a robot, for who tells them what to do (node_commands.hpp) ----
+    // What is asked leaves with this instant or the next; what comes of it is in take_heard(), at
+    // times of clock(), which also goes on over reset().
+    debug::Network& network() { return network_; }
+    Time clock() const { return clock_; }
+    // Scripts are compiled, but not loaded, until run_scripts() or reset().
+    void hold_scripts() { held_ = true; }
+    // Nodes get what is meant for them again, and run it from its beginning.
+    enum class Again { All, WhatDoesNotRun };
+    void run_scripts(Again which);
+    // All scripts that were loaded, for others that come instead. Nodes keep what they have.
+    void forget_scripts();
 
     // ---- guests: nodes that others brought to the bus, real ones perhaps ----
     // Tells them to stop and makes them safe, as SimOptions::guests says; they are read back while
@@ -265,6 +279,7 @@ private:
         uint16_t places = 1;  // how many nodes the robot has
         std::optional<Assignment> script;
         std::string fault;
+        std::string killed = {};
     };
     struct Compiled {  // a script for a kind of node
         std::string path;
@@ -335,6 +350,7 @@ private:
     std::vector<wire::Frame> delivered_;  // to be heard behind the turns of the nodes
     std::optional<sim::RobotId> emits_to_;
     bool over_can_;                                  // frames cross a modelled bus
+    bool held_ = false;                              // no script is loaded now
     Time clock_{};                                   // of the network: goes on over reset()
     Duration rest_{};                                // of step()
     std::vector<Node> nodes_;                        // by robot, then by place

@@ -280,6 +280,7 @@ void SimSession::enter(Assignment& script, Stage stage) {
 
 // In the order of the robots; goes on where it stopped, for it is called at each instant.
 void SimSession::send_ready() {
+    if (held_) return;
     const size_t at_once = over_can_ ? kLoadsAtOnceOverCan : kLoadsAtOnce;
     while (count(Stage::Ready) > 0 && count(Stage::Sent) < at_once) {
         Node& node = nodes_[next_ready_];
@@ -287,6 +288,36 @@ void SimSession::send_ready() {
         if (node.script && node.script->stage == Stage::Ready) send(node);
     }
     if (count(Stage::Ready) == 0) next_ready_ = 0;
+}
+
+void SimSession::run_scripts(Again which) {
+    held_ = false;
+    for (Node& node : nodes_) {
+        if (!node.script || node.script->program->bytecode.empty()) continue;
+        const Stage stage = node.script->stage;
+        const debug::NodeView* const view = network_.node(node.id);
+        const bool runs = stage == Stage::Runs && view != nullptr && view->connected &&
+                          view->state == debug::ProgramState::Running;
+        const bool again = which == Again::All || !runs;
+        if (again && (stage == Stage::Runs || stage == Stage::Failed)) {
+            enter(*node.script, Stage::Ready);
+        }
+    }
+}
+
+void SimSession::forget_scripts() {
+    sources_.clear();
+    waiting_.clear();
+    file_mistakes_.clear();
+    names_.clear();
+    network_.set_common({});
+    for (Node& node : nodes_) {
+        if (!node.script) continue;
+        count(node.script->stage)--;
+        node.script.reset();
+        node.fault.clear();
+        node.killed.clear();
+    }
 }
 
 void SimSession::send(Node& node) {

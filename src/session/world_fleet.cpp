@@ -6,6 +6,7 @@
 #include <tuple>
 #include <variant>
 
+#include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "fleet/topic.hpp"
 
@@ -32,13 +33,15 @@ WorldFleet::~WorldFleet() {
 
 void WorldFleet::leave() {
     if (!door_ || std::exchange(left_, true)) return;
-    for (const auto& robot : robots_) {
-        robot->member.leave();
-        perform(*robot);
-        // Closed in good order, so that no will is published.
-        robot->way.real.reset();
-        robot->asks_way.real.reset();
-    }
+    for (const auto& robot : robots_) leave(*robot);
+}
+
+// Closed in good order, so that no will is published.
+void WorldFleet::leave(Robot& robot) {
+    robot.member.leave();
+    perform(robot);
+    robot.way.real.reset();
+    robot.asks_way.real.reset();
 }
 
 // In virtual time each run is the same: no name or number is random as those of real robots.
@@ -57,7 +60,21 @@ fleet::MemberOptions WorldFleet::member_of(const RobotBus& robot) const {
     return member;
 }
 
-Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
+Result<std::unique_ptr<WorldFleet::Robot>> WorldFleet::made(const RobotBus& robot,
+                                                            const fleet::MemberOptions& options,
+                                                            const Ears& ears, bool asks) {
+    auto one = std::make_unique<Robot>(Robot{.id = robot.id,
+                                             .member = fleet::Member(options, now_),
+                                             .name = robot.name,
+                                             .fleet = options.fleet,
+                                             .ears = ears,
+                                             .tell = fleet::TellList(robot.project.fleet.tell)});
+    one->way = TRY(connected(options, one->member.will()));
+    if (asks) TRY(let_ask(*one, options));
+    return one;
+}
+
+Status WorldFleet::join(const RobotBus& robot, const Ears& ears, bool asks) {
     const fleet::MemberOptions options = member_of(robot);
     if (options.fleet.empty()) return Status::done();
     if (!fleet::is_robot_name(robot.name)) {
@@ -67,15 +84,30 @@ Status WorldFleet::join(const RobotBus& robot, Ears ears, bool asks) {
                         "bytes, neither \"all\" nor \"group\"; give it another name",
                         robot.name, fleet::kNameBytesMax)};
     }
-    auto one = std::make_unique<Robot>(Robot{.member = fleet::Member(options, Time{}),
-                                             .name = robot.name,
-                                             .ears = std::move(ears),
-                                             .tell = robot.project.fleet.tell});
-    one->way = TRY(connected(options, one->member.will()));
-    if (asks) TRY(let_ask(*one, options));
+    auto one = TRY(made(robot, options, ears, asks));
     by_id_[robot.id.number - 1] = one.get();
     robots_.push_back(std::move(one));
     return Status::done();
+}
+
+Status WorldFleet::join_again(const RobotBus& robot, bool asks) {
+    Robot* const before = by_id_[robot.id.number - 1];
+    if (before == nullptr || !door_) return Status::done();
+    fleet::MemberOptions options = member_of(robot);
+    options.fleet = before->fleet;
+    auto next = TRY(made(robot, options, before->ears, asks));
+    leave(*before);
+    by_id_[robot.id.number - 1] = next.get();
+    *std::ranges::find(robots_, before, &std::unique_ptr<Robot>::get) = std::move(next);
+    return Status::done();
+}
+
+// The state of the version before is not told behind it.
+void WorldFleet::deployed(sim::RobotId robot, const fleet::Version& version) {
+    Robot* const one = by_id_[robot.number - 1];
+    if (one == nullptr) return;
+    if (one->ears.shown) one->member.show(one->ears.shown(), now_);
+    one->member.deployed(version);
 }
 
 void WorldFleet::emitted(sim::RobotId robot, const Emission& event, Time now) {
@@ -100,6 +132,7 @@ toolbox::Fleet* WorldFleet::asked_by(sim::RobotId robot) {
 
 void WorldFleet::pass(Time now) {
     if (left_) return;
+    now_ = now;
     broker_.pass(now);
     run_timeline(now);
     for (Keeper& keeper : keepers_) turn(keeper, now);
@@ -245,32 +278,43 @@ void WorldFleet::turn(Robot& robot, Time now) {
     perform(robot);
 }
 
-// What everybody may see of it, and answers to those who wait until it is at rest.
+// What everybody may see of it.
 void WorldFleet::show(Robot& robot, Time now) {
-    if (!robot.stopping.empty() && robot.ears.is_at_rest()) {
-        for (const fleet::Command& command : std::exchange(robot.stopping, {})) {
-            robot.member.answer(command, {.done = true});
-        }
-    }
+    (void)robot.tell.forget_old(now);
     if (now < robot.show_at) return;
     robot.show_at = now + kShowEvery;
     robot.member.show(robot.ears.shown(), now);
-    for (const fleet::Tells& variable : robot.tell) {
-        std::vector<int16_t> values = robot.ears.values(variable);
-        if (values.empty()) continue;
-        robot.member.changed(variable.node, variable.name, std::move(values));
+    for (const fleet::Tells& variable : robot.tell.all()) {
+        auto values = robot.ears.values(variable);
+        if (values.ok()) {
+            robot.member.changed(variable.node, variable.name, std::move(values.value()));
+        }
     }
 }
 
-// In virtual time nobody gives commands.
+fleet::Answer WorldFleet::tell_for_a_minute(Robot& robot, const fleet::Tells& variable) {
+    const auto there = robot.ears.values(variable);
+    if (!there.ok()) {
+        return {.what = std::string(utf8_prefix(there.error().what, fleet::kLineBytesMax))};
+    }
+    robot.member.tell_again(variable.node, variable.name);
+    if (robot.tell.add(variable, now_)) return {.done = true};
+    return {.what = fmt::format("{} variables are told already because somebody asked for them; "
+                                "wait a minute",
+                                fleet::kTellMax)};
+}
+
+// In virtual time nobody gives commands. By the time of the answer it may be another instance, of
+// the same name.
 void WorldFleet::obey(Robot& robot, const fleet::Command& command) {
     if (!robot.ears.obey) return;
-    const auto answer = robot.ears.obey(command);
-    if (answer) {
-        robot.member.answer(command, *answer);
-    } else {
-        robot.stopping.push_back(command);
+    if (command.verb == "tell") {
+        const fleet::Tells variable{command.node, command.name};
+        return robot.member.answer(command, tell_for_a_minute(robot, variable));
     }
+    robot.ears.obey(command, [this, id = robot.id, command](fleet::Answer answer) {
+        by_id_[id.number - 1]->member.answer(command, std::move(answer));
+    });
 }
 
 void WorldFleet::perform(Robot& robot) {
@@ -287,8 +331,8 @@ void WorldFleet::perform(Robot& robot) {
             robot.ears.say(said->text);
         } else if (const auto* command = std::get_if<fleet::Obey>(&action)) {
             obey(robot, command->command);
-        } else {
-            // Another version: what a world runs is what its file says.
+        } else if (const auto* fetch = std::get_if<fleet::Fetch>(&action)) {
+            if (robot.ears.want) robot.ears.want(fetch->want);
         }
     }
 }

@@ -20,6 +20,7 @@
 #include "fleet/keeping.hpp"
 #include "fleet/member.hpp"
 #include "fleet/modelled_broker.hpp"
+#include "fleet/tell_list.hpp"
 #include "session/member_fleet.hpp"
 #include "session/sent_to_fleet.hpp"
 #include "session/world_buses.hpp"
@@ -31,6 +32,8 @@ constexpr Duration kShowEvery = std::chrono::milliseconds(100);  // to a real br
 
 class WorldFleet {
 public:
+    // Of a command: once, then or later, but not after this fleet is gone.
+    using Answered = std::function<void(fleet::Answer)>;
     // What a robot does for the fleet. Called within pass().
     struct Ears {
         // `frame`: of the sender's bus, by its number; 0: not known.
@@ -42,12 +45,12 @@ public:
         // With watch(): its plan asks the keeper, and the keeper has decided.
         MemberFleet::Asked asked = {};
         std::function<void(uint64_t number, const keeper::Reply& reply)> replied = {};
-        // Of members at a real broker: what is shown of the robot, the values of a variable (empty:
-        // there is none), a command. Nothing: it is answered when all nodes are at rest.
+        // Of members at a real broker: what is shown of the robot, the values of a variable (the
+        // Error says why it has none), a command, another version that is wanted.
         std::function<fleet::Shown()> shown = {};
-        std::function<std::vector<int16_t>(const fleet::Tells& variable)> values = {};
-        std::function<std::optional<fleet::Answer>(const fleet::Command&)> obey = {};
-        std::function<bool()> is_at_rest = {};
+        std::function<Result<std::vector<int16_t>>(const fleet::Tells& variable)> values = {};
+        std::function<void(const fleet::Command&, Answered)> obey = {};
+        std::function<void(const fleet::Want&)> want = {};
     };
     // To a real broker, in real time: a way for each robot instead of the modelled ones.
     struct Door {
@@ -70,13 +73,18 @@ public:
 
     // A robot whose project names no fleet is in none. The Error says why it cannot be a member.
     // With `asks`, its plan asks the fleet: asked_by().
-    Status join(const RobotBus& robot, Ears ears, bool asks = false);
+    Status join(const RobotBus& robot, const Ears& ears, bool asks = false);
     struct Emission {
         std::string name;
         std::vector<int16_t> arguments;
         uint32_t frame = 0;  // its number, where frames have one
     };
     void emitted(sim::RobotId robot, const Emission& event, Time now);
+    // At a real broker: its project says something else, and it joins again as another instance, in
+    // the fleet where it was.
+    Status join_again(const RobotBus& robot, bool asks);
+    // What became of the version that was wanted of it.
+    void deployed(sim::RobotId robot, const fleet::Version& version);
     // What the plan of a robot asks; nullptr: it is in no fleet, or was not to ask.
     toolbox::Fleet* asked_by(sim::RobotId robot);
     // Before join(): ears are also told what `vagus why` needs.
@@ -97,15 +105,15 @@ private:
         bool may_have_news() const { return modelled == nullptr || modelled->has_news(); }
     };
     struct Robot {
+        sim::RobotId id;
         fleet::Member member;
         Way way = {};
-        std::string name = {};
+        std::string name = {}, fleet = {};
         Ears ears = {};
-        std::vector<fleet::Tells> tell = {};
+        fleet::TellList tell;
         SentToFleet sent = {};
         Time show_at = {};
-        std::vector<fleet::Command> stopping = {};  // to be answered at rest
-        std::unique_ptr<MemberFleet> asks = {};     // with a way of its own
+        std::unique_ptr<MemberFleet> asks = {};  // with a way of its own
         Way asks_way = {};
     };
     // Of one fleet, as a process of its own would be.
@@ -116,6 +124,9 @@ private:
         Time tick_at = {};
     };
     fleet::MemberOptions member_of(const RobotBus& robot) const;
+    Result<std::unique_ptr<Robot>> made(const RobotBus& robot, const fleet::MemberOptions& options,
+                                        const Ears& ears, bool asks);
+    void leave(Robot& robot);
     void run_timeline(Time now);
     void act(const sim::CutFleet& action);
     void act(const sim::RunKeeper& action);
@@ -129,6 +140,7 @@ private:
     void turn(Robot& robot, Time now);
     void show(Robot& robot, Time now);
     void obey(Robot& robot, const fleet::Command& command);
+    fleet::Answer tell_for_a_minute(Robot& robot, const fleet::Tells& variable);
     void perform(Robot& robot);
     uint32_t frame_of(const fleet::EmitOnBus& event) const;
 
@@ -142,6 +154,7 @@ private:
     bool left_ = false;
     std::vector<Robot*> by_id_;  // by robot of the world; nullptr: in no fleet
     size_t timeline_next_ = 0;
+    Time now_{};
 };
 
 }  // namespace vagus::session

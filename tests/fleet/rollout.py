@@ -11,6 +11,10 @@ from harness import GIVE_UP_AFTER, vagus  # noqa: E402
 from page import Refused, Studio  # noqa: E402
 
 
+def words_of_deploy(broker, *arguments):
+    return ["deploy", *arguments, "--serve-cert", broker / "broker.crt", "--serve-key", broker / "broker.key"]
+
+
 class Versions(Case):
     def version(self, script="var edition = 2\n" + SCRIPT, **more):
         """A folder with another version of the project of the robots; `more` is of its key "fleet"."""
@@ -22,7 +26,7 @@ class Versions(Case):
 
 class Rollout(Versions):
     def words(self, *arguments):
-        return ["deploy", *arguments, "--serve-cert", self.broker_folder / "broker.crt", "--serve-key", self.broker_folder / "broker.key"]
+        return words_of_deploy(self.broker_folder, *arguments)
 
     def deploy(self, *arguments, **options):
         return self.desk(*self.words(*arguments), **options)

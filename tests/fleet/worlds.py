@@ -41,9 +41,6 @@ class Worlds(Case):
         watch.wait_line(r"^s1: thymio-II\.last = 5$")
         self.assertIn("3 of 3 robots: stopped", self.do("stop", "all"))
         self.wait_state("s1", "stopped")
-        done = self.desk("set", "s1", "thymio-II.go", 1)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("s1: not done: set is no command for a robot of a world", done.stdout)
 
     def test_a_class_of_thirty(self):
         """`examples/alarm`, with thirty logins by one word. Robots are listed as they are counted."""

@@ -22,6 +22,7 @@
 #include "net/end_signal.hpp"
 #include "net/links.hpp"
 #include "record/sim_recording.hpp"
+#include "serve/field/world_versions.hpp"
 #include "session/safe_stop.hpp"
 #include "sim/world_threads.hpp"
 
@@ -60,8 +61,8 @@ public:
     // Steps until the scripts run, so that their mistakes are known before the screen appears.
     // False if there are some, or a script did not arrive, and nobody watches their files.
     bool settle();
-    // At time 0, where robots have projects: their plans begin.
-    Status start() { return robots_.start(); }
+    // At time 0, where robots have projects: their plans begin, and they join their fleets.
+    Status start();
     int run();
     void stop_guests();
 
@@ -108,7 +109,16 @@ private:
     Hands hands_;
     std::vector<Port> ports_;
     Time real_before_{};
+    std::unique_ptr<serve::WorldVersions> versions_;  // of robots in a fleet
 };
+
+Status SimRun::start() {
+    if (!options_.fleet.target.empty()) {
+        versions_ = TRY(serve::WorldVersions::open(
+            robots_, {.authority = options_.fleet.ca, .wake = [this] { links_.wake(); }}));
+    }
+    return robots_.start();
+}
 
 Status SimRun::listen() {
     if (!options_.listen.empty()) {
@@ -236,6 +246,7 @@ void SimRun::pass_all() {
     while (!ended()) turn();
     end_recording();
     robots_.end();
+    versions_.reset();
     tell_notes();
     write_trace();
     screen_.reset();
@@ -319,6 +330,7 @@ void SimRun::advance(Duration span) {
     const auto clock = [this] { return links_.now(); };
     threads_.begin(clock);
     robots_.step(passes);
+    if (versions_) versions_->pass(passes);
     threads_.end(clock, passes);
     // Plain lines stand for moments of simulated time, however many of them pass in a turn.
     if (running_ && !on_terminal()) tell_notes();

@@ -89,6 +89,7 @@ Status Deployments::begin(Bundle bundle) {
     if (busy() || trying_) return Error{Code::Refused, kBusy};
     TRY(check_bundle(bundle));
     TRY(versions_.begin());
+    stop_pressed_ = false;
     bundle_ = std::move(bundle);
     bundle_->when_wall = call_.wall_ms();
     file_ = 0;
@@ -184,7 +185,7 @@ void Deployments::received(const vagus::Result<uint32_t>& number) {
 // What the robot answers comes while it is at work with its nodes: they are left at the next tick.
 void Deployments::stop_for(Trying next) {
     starter_.give_up();
-    stop_pressed_ = stands_ = false;
+    stands_ = false;
     next_ = next;
     call_.stop([this] { stands_ = true; });
 }
@@ -216,6 +217,7 @@ void Deployments::back(Done done) {
     if (busy() || trying_)
         return done({DeployOutcome::Result::Refused, versions_.current(), {}, kBusy});
     done_ = std::move(done);
+    stop_pressed_ = false;
     const uint32_t from = versions_.current();
     if (from == 0) return refuse("the folder as it was given is in force; nothing is before it");
     stop_for({.version = versions_.before(from), .back = from, .if_not = IfNot::Wait});
@@ -302,6 +304,7 @@ void Deployments::rolled_back(const Status& back, const std::string& why) {
 // A person's Stop counts more than any version: nothing starts by itself after it.
 void Deployments::stopped() {
     stop_pressed_ = true;
+    ++stops_;
     if (!trying_) return;
     const uint32_t version = trying_->version;
     trying_.reset();

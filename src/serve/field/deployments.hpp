@@ -74,8 +74,11 @@ public:
     void commit(Done done);
     // Back to the version before.
     void back(Done done);
-    // Stop was pressed: what is in force stays so, and is stopped.
+    // Stop was pressed: what is in force stays so, and is stopped. A version that was begun before
+    // comes in force, but does not start.
     void stopped();
+    // How often it was.
+    uint64_t stops() const { return stops_; }
 
     // Nothing is under way that another version would wait for.
     bool may_begin() const { return !busy() && !trying_; }
@@ -120,7 +123,8 @@ private:
     std::optional<Trying> trying_;
     std::optional<Trying> next_;  // in force as soon as the robot is at rest
     bool stands_ = false;         // it does
-    bool stop_pressed_ = false;   // since the commit
+    bool stop_pressed_ = false;   // since it was begun
+    uint64_t stops_ = 0;
     Done done_;
     size_t working_ = 0;  // pieces of work under way
     DeployCounts counts_;

@@ -270,6 +270,22 @@ TEST_F(DeploymentsTest, NothingStartsAfterAStopByHand) {
     EXPECT_EQ(versions.current(), 1u);
 }
 
+TEST_F(DeploymentsTest, AStopBeforeItsCommitCountsAndOneBeforeItWasBegunDoesNot) {
+    ASSERT_TRUE(deployments.boot(true, 0s).ok());
+    turn(0s);
+    deployments.stopped();
+    send("one");
+    starter.give_up();
+    deployments.stopped();
+    commit();
+    stops.back()();
+    turn(1s);
+    EXPECT_EQ(outcome->result, DeployOutcome::Result::Stopped);
+    stops.clear();
+    try_out("two", 2s);
+    EXPECT_EQ(starter.state(), Starter::State::Starting);
+}
+
 // A version that takes the whole program with it each time it starts.
 TEST_F(DeploymentsTest, AVersionThatNeverStartedIsGivenUpAfterThreeBoots) {
     ASSERT_TRUE(deployments.boot(true, 0s).ok());

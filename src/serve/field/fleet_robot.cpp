@@ -196,6 +196,7 @@ fleet::Answer FleetRobot::tell_for_a_minute(const fleet::Command& command) {
                                     "them; wait a minute",
                                     fleet::kTellMax)};
     }
+    member_.tell_again(command.node, command.name);
     tell_variables();
     return {.done = true};
 }

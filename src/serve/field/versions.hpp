@@ -33,6 +33,9 @@ struct VersionTrial {
 class Versions {
 public:
     explicit Versions(std::filesystem::path project);
+    // What is deployed is kept in another place than below the project.
+    Versions(std::filesystem::path project, std::filesystem::path root)
+        : project_(std::move(project)), root_(std::move(root)) {}
 
     // Deletes what an interrupted deployment has left. Once, at the boot.
     void tidy_up();

@@ -96,6 +96,7 @@ void Wanted::begin() {
     const bool is_back = last_ && (last_->result == "refused" || last_->result == "rolled_back");
     last_ = fleet::Version{want.number, want.sha256, "taken", ""};
     health_.reset();
+    stops_before_ = deployments_.stops();
     call_.tell(*last_);
     call_.log("note", fmt::format("fleet: roll-out {}: {}", want.number,
                                   want.back ? "back to the version before" : want.address));
@@ -108,8 +109,12 @@ void Wanted::begin() {
         [this](const vagus::Result<Packed>& packed) { fetched(packed); });
 }
 
+// A person's Stop counts more than a wish that came before it.
 void Wanted::fetched(const vagus::Result<Packed>& packed) {
     if (!packed.ok()) return told("refused", packed.error().what);
+    if (deployments_.stops() != stops_before_) {
+        return told("refused", "somebody pressed Stop while it was fetched; deploy it again");
+    }
     const Status begun = deployments_.begin(packed.value().bundle);
     if (!begun.ok()) return told("refused", begun.error().what);
     send(std::make_shared<const Packed>(packed.value()), 0);

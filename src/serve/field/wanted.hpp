@@ -64,6 +64,7 @@ private:
     std::optional<fleet::Want> under_way_;
     std::optional<fleet::Version> last_;
     std::optional<HealthWatch> health_;
+    uint64_t stops_before_ = 0;  // of the one that is under way
     Time now_{}, tell_at_{};
 };
 

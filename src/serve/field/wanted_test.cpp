@@ -26,6 +26,7 @@ protected:
         return {.file = (fs::path(project) / ".vagus" / "want.json").string(),
                 .fetch = [this](const std::string& address) -> Result<std::string> {
                     ++fetches;
+                    if (while_fetched) while_fetched();
                     if (address == "https://desk/x") return served;
                     return Error{Code::Unavailable, address + ": cannot be fetched"};
                 },
@@ -69,6 +70,7 @@ protected:
     std::vector<std::string> told;
     std::vector<DocFinding> findings;
     int fetches = 0;
+    std::function<void()> while_fetched;
     std::optional<fleet::Healthy> healthy;
     int64_t battery = 0;
     Time now{};
@@ -119,6 +121,17 @@ TEST_F(WantedTest, WhatIsNotWhatWasWantedIsRefused) {
     wants(want);
     EXPECT_THAT(why, HasSubstr("cannot be fetched"));
     EXPECT_EQ(opened, "0");
+}
+
+TEST_F(WantedTest, AStopWhileItIsFetchedCountsMore) {
+    while_fetched = [this] { deployments.stopped(); };
+    wants(serve(7, "one"));
+    EXPECT_THAT(told, ElementsAre("taken", "refused"));
+    EXPECT_THAT(why, HasSubstr("somebody pressed Stop while it was fetched"));
+    EXPECT_EQ(versions.current(), 0u);
+    while_fetched = {};
+    wants(serve(8, "one"));  // asked for after the Stop
+    EXPECT_EQ(told.back(), "started");
 }
 
 TEST_F(WantedTest, WhatHasMistakesIsRefusedWithTheFirstOfThem) {

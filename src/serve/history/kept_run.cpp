@@ -121,8 +121,7 @@ public:
 
 private:
     void begin() {
-        History::Beginning beginning{
-            .kind = "trace", .name = file_.path, .plan_seconds = kForEver};
+        History::Beginning beginning{.kind = "trace", .name = file_.path, .plan_seconds = kForEver};
         const std::string& plan = recorded_.about.plan;
         if (plan.empty()) {
             run_->has_plan = true;

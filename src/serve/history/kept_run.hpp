@@ -17,7 +17,7 @@
 
 namespace vagus::serve {
 
-constexpr size_t kTraceFileBytes = 32u << 20;                // as much as a run keeps
+constexpr size_t kTraceFileBytes = 32u << 20;                  // as much as a run keeps
 constexpr uintmax_t kRecordingFileBytes = uintmax_t{1} << 30;  // of one that is opened as it is
 
 bool is_recording_file(const std::string& path);

@@ -97,7 +97,7 @@ void Workbench::obey_start(const fleet::Command& command, Obeyed done) {
     start_run([done = std::move(done)](const std::string& why) { done(answer_of_why(why)); });
 }
 
-// Stopped means read back: who did not say so is named.
+// Stopped means read back: who did not say so is named, also who is away, for it may move.
 void Workbench::stop_and_report(const std::string& by, Obeyed done) {
     stopped_();
     const Call call(Json::object(), 0, [done = std::move(done)](const Call::Outcome& outcome) {
@@ -106,8 +106,7 @@ void Workbench::stop_and_report(const std::string& by, Obeyed done) {
         const auto* report = std::get_if<Json>(&outcome);
         const Json nodes = report ? report->value("nodes", Json::array()) : Json::array();
         for (const Json& node : nodes) {
-            const std::string state = node["state"];
-            if (state == "stopped" || state == "gone") continue;
+            if (node["state"] == "stopped") continue;
             const std::string name = node["name"];
             answer.silent.push_back(name.empty() ? "node " + node["node"].dump() : name);
         }

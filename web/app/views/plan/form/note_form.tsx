@@ -6,7 +6,6 @@ import { useDraft } from '../../../parts/use_draft';
 import { Field } from '../../world/fields';
 import { NumberField } from '../../world/number_field';
 import { drawWords as words } from '../words';
-import '../../../look/draw.css';
 
 /** A note by the keyboard: its text, how wide and high it is. */
 export function NoteForm(props: { board: PlanBoard; note: Note; disabled: boolean }) {

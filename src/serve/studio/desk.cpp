@@ -344,7 +344,9 @@ void Desk::send(ClientId client, bool binary, std::string bytes) {
     if (found == connections_.end()) return;
     if (found->second.dropped) return;
     found->second.unsent += bytes.size();
+    found->second.on_the_way.add(bytes.size());
     outside_.send(client, binary, std::move(bytes));
+    if (found->second.known && found->second.on_the_way.wants_mark()) send_ping(client, now_);
     if (found->second.unsent > Protocol::get().limit("unsent_bytes")) {
         drop(client, "this page read too slowly and was disconnected; reload it");
     }
@@ -364,7 +366,7 @@ void Desk::tick(Time now) {
     const auto has_room = [this](ClientId client) {
         const auto found = connections_.find(client);
         return found != connections_.end() && !found->second.dropped &&
-               found->second.unsent < kRoomBytes;
+               found->second.unsent < kRoomBytes && !found->second.on_the_way.is_much();
     };
     const auto to_page = [this](ClientId client, bool binary, std::string bytes) {
         send(client, binary, std::move(bytes));

@@ -8,6 +8,7 @@
 //     desk.tick(now);
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -26,12 +27,17 @@
 namespace vagus::serve {
 
 constexpr size_t kRoomBytes = 256 * 1024;  // unsent to a page, above which it gets nothing new
-constexpr uint64_t kPingsMissedMax = 3;    // a client that left so many unanswered is silent
-constexpr size_t kSlowBytes = 64 * 1024;   // unsent to a client: our ping waits behind that
-constexpr Duration kTwinWithin = 1s;       // a page that may have a twin answers a ping
-constexpr Duration kOnTime = 2s;           // a tick so long after the last: our own loop was late
-constexpr Duration kPingLateMax = 500ms;   // so was it for a ping that left this much behind time
-constexpr double kUntilAheadMax = 1000;    // ms by which a page may take our clock to be ahead
+// Sent to a page, and perhaps still on its way: above which it gets nothing new. On a line of
+// 50 kB/s, whose buffers hold much more, it sees what was a second and a half ago, not a minute.
+constexpr size_t kOnTheWayBytes = 64 * 1024;
+constexpr size_t kMarkEvery = 16 * 1024;  // bytes; then a ping asks how far it has read
+constexpr size_t kMarksMax = 4096;        // pings of a client that are not answered
+constexpr uint64_t kPingsMissedMax = 3;   // a client that left so many unanswered is silent
+constexpr size_t kSlowBytes = 64 * 1024;  // unsent to a client: our ping waits behind that
+constexpr Duration kTwinWithin = 1s;      // a page that may have a twin answers a ping
+constexpr Duration kOnTime = 2s;          // a tick so long after the last: our own loop was late
+constexpr Duration kPingLateMax = 500ms;  // so was it for a ping that left this much behind time
+constexpr double kUntilAheadMax = 1000;   // ms by which a page may take our clock to be ahead
 
 // One command under way. Its answer may come later; it is kept for a client that lost its
 // connection meanwhile.
@@ -113,6 +119,24 @@ private:
         uint64_t ping = 0;
         Time until{};
     };
+    // What a client has read is known from the pings behind it that it answered. Nothing is known of
+    // one that never answers: it is no page.
+    class OnTheWay {
+    public:
+        void add(size_t bytes) { sent_ += bytes; }
+        bool wants_mark() const { return sent_ - marked_ >= kMarkEvery; }
+        void mark(uint64_t ping);
+        void answered(uint64_t ping);
+        bool is_much() const { return answers_ && sent_ - came_ >= kOnTheWayBytes; }
+
+    private:
+        struct Mark {
+            uint64_t ping = 0, sent = 0;
+        };
+        uint64_t sent_ = 0, came_ = 0, marked_ = 0;  // bytes
+        std::deque<Mark> marks_;
+        bool answers_ = false;
+    };
     struct Connection {
         std::string address;
         std::string nonce = {};  // of the page load
@@ -124,7 +148,8 @@ private:
         bool dropped = false;                // sent away; what it says is not heard any more
         std::optional<Time> refuse_at = {};  // it had a wrong token, and hears so then
         uint64_t refused_id = 0;
-        size_t unsent = 0;     // bytes
+        size_t unsent = 0;  // bytes
+        OnTheWay on_the_way = {};
         Duration silent{};     // it took nothing of that, while our own loop was on time
         double allowance = 0;  // commands it may send now
         Time allowance_at{};

@@ -521,5 +521,47 @@ TEST(Desk, WhoAsksForMoreThanItTakesIsSentAway) {
     EXPECT_NE(f.closed[ClientId{1}].find("read too slowly"), std::string::npos);
 }
 
+// ---- a slow line: its buffers hold what a page has not read ----
+
+// A clock of 20 kB that is another one each tenth of a second, all of which the network has taken.
+struct SlowLine : Fixture {
+    std::string text;
+    SlowLine() {
+        desk.topics().document("clock", [this](const Json&) { return Json{{"why", text}}; });
+        hello(1, kDrive, "a");
+        say(1, {{"id", 2}, {"do", "watch"}, {"in", {{"watch", 1}, {"topic", "clock"}}}});
+    }
+    // How many of so many changes are sent.
+    size_t change(int times) {
+        const size_t before = got[ClientId{1}].size();
+        for (int i = 0; i < times; ++i) {
+            text = std::string(20'000, static_cast<char>('a' + i % 26));
+            desk.topics().touch("clock");
+            desk.hear(ClientTook{{1}, 1u << 20}, now);
+            desk.tick(now += 100ms);
+        }
+        return got[ClientId{1}].size() - before;
+    }
+    void answer_ping() { say_as_it_is(1, {{"pong", pings[ClientId{1}].back()["ping"]}}); }
+};
+
+TEST(Desk, APageGetsNothingNewWhileMuchIsOnTheWay) {
+    SlowLine line;
+    line.change(1);
+    line.answer_ping();
+    // 20, 40 and 60 kB are less than 64.
+    EXPECT_EQ(line.change(20), 4u);
+    EXPECT_EQ(line.change(20), 0u);
+    line.answer_ping();
+    EXPECT_GT(line.change(20), 0u);
+    EXPECT_TRUE(line.closed.empty());
+    EXPECT_TRUE(line.run(1, 3).contains("ok"));  // answers do not wait
+}
+
+TEST(Desk, WhoNeverAnswersAPingIsNoPageAndGetsAll) {
+    SlowLine line;
+    EXPECT_EQ(line.change(20), 20u);
+}
+
 }  // namespace
 }  // namespace vagus::serve

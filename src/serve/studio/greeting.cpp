@@ -135,7 +135,20 @@ void Desk::welcome(ClientId client, const Request& request, Role role, Time now)
 
 // ---- signs of life ----
 
+void Desk::OnTheWay::mark(uint64_t ping) {
+    marked_ = sent_;
+    if (marks_.size() < kMarksMax) marks_.push_back({ping, sent_});
+}
+
+void Desk::OnTheWay::answered(uint64_t ping) {
+    for (; !marks_.empty() && marks_.front().ping <= ping; marks_.pop_front()) {
+        came_ = marks_.front().sent;
+        answers_ = true;
+    }
+}
+
 void Desk::on_pong(ClientId client, const Pong& pong, Time now) {
+    connections_.at(client).on_the_way.answered(pong.number);
     settle_twins(client, pong.number, now);
 }
 
@@ -181,7 +194,9 @@ void Desk::ping(Time now) {
 }
 
 void Desk::send_ping(ClientId client, Time now) {
-    send(client, false, json_text({{"ping", ++pings_}, {"now", server_ms(now)}}));
+    const uint64_t number = ++pings_;
+    connections_.at(client).on_the_way.mark(number);
+    send(client, false, json_text({{"ping", number}, {"now", server_ms(now)}}));
 }
 
 // Slow is not gone: only who takes nothing at all is, and only while we gave everything in time.

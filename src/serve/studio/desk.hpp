@@ -119,8 +119,8 @@ private:
         uint64_t ping = 0;
         Time until{};
     };
-    // What a client has read is known from the pings behind it that it answered. Nothing is known of
-    // one that never answers: it is no page.
+    // What a client has read is known from the pings behind it that it answered. Of one that never
+    // answers nothing is known: it is no page.
     class OnTheWay {
     public:
         void add(size_t bytes) { sent_ += bytes; }

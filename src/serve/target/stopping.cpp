@@ -34,6 +34,16 @@ nlohmann::json answer_of(const StopReport& report) {
     return answer;
 }
 
+std::vector<std::string> not_stopped(const nlohmann::json& answer) {
+    std::vector<std::string> names;
+    for (const Json& node : answer.value("nodes", Json::array())) {
+        if (node["state"] == word_of(State::Stopped)) continue;
+        const std::string name = node["name"];
+        names.push_back(name.empty() ? "node " + node["node"].dump() : name);
+    }
+    return names;
+}
+
 void Stopping::begin(debug::Network& network, const session::SafeStop& safe,
                      const std::vector<uint16_t>& heard, bool link, Time now, Done done) {
     safe_ = safe;

@@ -31,6 +31,9 @@ const char* word_of(StopNode::State state);
 
 // What Stop answers to who pressed it.
 nlohmann::json answer_of(const StopReport& report);
+// Of such an answer the names of nodes that were not read back as stopped, also of those that are
+// away: they may move.
+std::vector<std::string> not_stopped(const nlohmann::json& answer);
 
 class Stopping {
 public:

@@ -37,6 +37,16 @@ TEST_F(TargetTest, StopTellsAllBeforeItWritesAndReadsBackWhatItWrote) {
     EXPECT_EQ(sent, expected);
 }
 
+// Who asked may be far away and see nothing of it.
+TEST(StopAnswer, NamesAllThatWereNotReadBackAsStopped) {
+    const StopReport report{{{1, "drive", State::Stopped},
+                             {2, "bumper", State::Silent},
+                             {3, "head", State::Gone},
+                             {4, "", State::Moving}}};
+    EXPECT_EQ(not_stopped(answer_of(report)),
+              (std::vector<std::string>{"bumper", "head", "node 4"}));
+}
+
 // What was written is 0, and the wheel still turns.
 TEST_F(TargetTest, ANodeThatAnsweredMovesUntilItsSpeedReadsZero) {
     run();

@@ -97,19 +97,14 @@ void Workbench::obey_start(const fleet::Command& command, Obeyed done) {
     start_run([done = std::move(done)](const std::string& why) { done(answer_of_why(why)); });
 }
 
-// Stopped means read back: who did not say so is named, also who is away, for it may move.
+// Stopped means read back: who did not say so is named.
 void Workbench::stop_and_report(const std::string& by, Obeyed done) {
     stopped_();
     const Call call(Json::object(), 0, [done = std::move(done)](const Call::Outcome& outcome) {
         const auto* problem = std::get_if<Problem>(&outcome);
         fleet::Answer answer = answer_of_why(problem ? problem->what : "");
         const auto* report = std::get_if<Json>(&outcome);
-        const Json nodes = report ? report->value("nodes", Json::array()) : Json::array();
-        for (const Json& node : nodes) {
-            if (node["state"] == "stopped") continue;
-            const std::string name = node["name"];
-            answer.silent.push_back(name.empty() ? "node " + node["node"].dump() : name);
-        }
+        if (report != nullptr) answer.silent = not_stopped(*report);
         if (answer.silent.size() > fleet::kNodesMax) answer.silent.resize(fleet::kNodesMax);
         answer.done = answer.done && answer.silent.empty();
         done(std::move(answer));

@@ -31,7 +31,6 @@ constexpr const char* kLongPlan =
 // "a" has room for 100 words of program, 32 of stack and 100 of variables, and lists nothing.
 const std::string kDescription =
     "\x10\x00\x01\x00\x00\x90\x01"s + "a\x05\x00\x64\x00\x20\x00\x64\x00\x00\x00\x00\x00\x00\x00"s;
-const std::string kGone = "\x00\x00\x01\x00\x04\x90"s;
 const std::string kRuns = "\x04\x00\x01\x00\x0a\x90\x00\x00\x00\x00"s;
 const std::string kStands = "\x04\x00\x01\x00\x0a\x90\x00\x00\x02\x00"s;
 constexpr int kReset = 0xa002, kRun = 0xa003, kStop = 0xa006, kAskState = 0xa007;
@@ -213,18 +212,6 @@ TEST_F(RobotBench, OneThatSleptWithoutAPlanIsLeftAsItIs) {
     slept += 4s;
     for (int i = 0; i < 5; ++i) live();
     EXPECT_EQ(text.find(kStopNode), std::string::npos);
-}
-
-// Nobody knows whether it is at rest.
-TEST_F(RobotBench, ANodeThatIsAwayIsNotReportedToItsFleetAsStopped) {
-    describe();
-    answer(kGone);
-    for (int i = 0; i < 3; ++i) live();
-    std::optional<fleet::Answer> told_fleet;
-    bench.obey({.verb = "stop"}, [&](fleet::Answer answer) { told_fleet = std::move(answer); });
-    while (!told_fleet) turn();  // it does not answer
-    EXPECT_FALSE(told_fleet->done);
-    EXPECT_EQ(told_fleet->silent, std::vector<std::string>{"a"});
 }
 
 // By whom: there is no page that could be named.

@@ -38,7 +38,7 @@ public:
     RobotCommands(session::RobotBus& robot, const std::unique_ptr<RobotPlan>& plan, Calls calls);
 
     void obey(const fleet::Command& command, Answered done);
-    // Ends the plan and brings the nodes to rest, both at once. Who did not come to rest is told.
+    // Ends the plan and stops the nodes. `done` gets the state in which each node was last seen.
     void stop(session::NodeCommands::Stopped done);
     // Nodes run their scripts, and then the plan begins; what runs already is left alone.
     void start(Done done);

@@ -322,7 +322,7 @@ export const text = {
     saved: (path: string) => `The trace is in ${path}.`,
     noPlan: (path: string) =>
       `${path}: no plan of this project has the name of its plan, so only the timeline is shown.`,
-    asRecorded: (why: string) => `Shown is what was recorded, without a run: ${why}.`,
+    asRecorded: (why: string) => `Showing what was recorded, without a run: ${why}.`,
     onRobot: (path: string) => `${path}: only the simulator runs a recording again`,
     refused: (path: string, count: number) =>
       `${path}: ${count} lines could not be read as trace lines and were left out.`,

@@ -36,9 +36,9 @@ test(
     await page.getByRole('tab', { name: 'Project' }).click();
     await page.locator('[role="treeitem"][data-path="monday.mcap"]').click();
     await seen(
-      page.getByText(/^Shown is what was recorded, without a run: .*a plan without a world/),
+      page.getByText(/^Showing what was recorded, without a run: .*a plan without a world/),
     );
-    await seen(page.getByText('Shown is monday.mcap.'));
+    await seen(page.getByText('Showing monday.mcap.'));
     const active = (/** @type {string} */ name) => seen(button(`Why ${name}?`));
     await active('first');
     await button('To the next step of the plan').click();
@@ -48,6 +48,6 @@ test(
     await reads(why, /the actor second began[^]*the actor first ended with Done/);
     await look(studio, 'the recording and its why');
     await press('Escape');
-    await gone(page.getByText('Shown is monday.mcap.'));
+    await gone(page.getByText('Showing monday.mcap.'));
   },
 );

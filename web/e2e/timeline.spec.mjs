@@ -311,7 +311,7 @@ test('a trace that was saved is opened without a run', wall, async (studio) => {
   await page.getByRole('switch', { name: 'What it does' }).click();
   await command('Show Project');
   await page.getByRole('treeitem', { name: /WallFollow-1\.trace\.jsonl/ }).dblclick();
-  await reads(bar(page), /Trace WallFollow-1\.trace\.jsonl\.\s*Everything shows 0\.000 s/);
+  await reads(bar(page), /Showing WallFollow-1\.trace\.jsonl\.\s*Everything shows 0\.000 s/);
   const live = page.getByRole('complementary', { name: 'What the plan does' });
   await reads(live, new RegExp(`${actorAt(trace, 0).actor}[^]*step 1 of the run`));
   await press('Escape');

@@ -8,7 +8,7 @@ export const pastWords = {
     paused: 'The run is paused; nothing here changes it.',
     over: 'Nothing runs now.',
   },
-  trace: (name: string) => `Shown is ${name}.`,
+  trace: (name: string) => `Showing ${name}.`,
   nothingRuns: 'Nothing runs.',
   thinned: 'Older than ten minutes: kept five times a second.',
   said: 'Looking back. Arrow keys go through time, Escape leads back to now.',

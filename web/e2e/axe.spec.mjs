@@ -9,11 +9,13 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
     await seen(page.getByRole('button', { name: /^Follow a wall/ }));
     await look(studio, 'start');
     await press('Alt+n');
-    await seen(page.getByRole('dialog', { name: 'New project' }));
-    await look(studio, 'new project');
+    const made = page.getByRole('dialog', { name: 'New project' });
+    await seen(made);
+    await look(studio, 'new project', made);
     await press('Escape', 'Control+o');
-    await seen(page.getByRole('dialog', { name: 'Open a folder' }));
-    await look(studio, 'folder');
+    const opened = page.getByRole('dialog', { name: 'Open a folder' });
+    await seen(opened);
+    await look(studio, 'folder', opened);
   });
 
   test(
@@ -25,6 +27,9 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
       await seen(page.getByRole('radio', { name: 'Draw', checked: true }));
       await press('F5');
       await seen(page.getByRole('button', { name: /Running/ }));
+      // What a run shows stays, and drawing it takes no time from looking at it.
+      await press('F8');
+      await seen(page.getByRole('button', { name: /Paused/ }));
       for (const name of ['Script', 'Draw', 'Debug', 'Present']) {
         await layout(name);
         await seen(page.getByRole('radio', { name, checked: true }));
@@ -57,19 +62,21 @@ for (const theme of /** @type {const} */ (['dark', 'light'])) {
         'World',
       ]) {
         await command(`Show ${panel}`);
-        await seen(page.getByRole('tabpanel', { name: panel }));
-        await look(studio, panel);
+        const shown = page.getByRole('tabpanel', { name: panel });
+        await seen(shown);
+        await look(studio, panel, shown);
       }
       await press('Control+k');
       await seen(page.getByRole('combobox', { name: 'Type a command' }));
-      await look(studio, 'palette');
+      await look(studio, 'palette', page.getByRole('dialog'));
       await press('Escape', 'F1');
       await seen(page.getByRole('option', { name: /^onevent/ }));
-      await look(studio, 'help');
+      await look(studio, 'help', page.getByRole('dialog'));
       await page.getByRole('tab', { name: 'Help', exact: true }).focus();
       await press('ArrowRight');
-      await seen(page.getByRole('dialog', { name: 'Keys' }));
-      await look(studio, 'keys');
+      const keys = page.getByRole('dialog', { name: 'Keys' });
+      await seen(keys);
+      await look(studio, 'keys', keys);
     },
   );
 }
@@ -80,10 +87,10 @@ async function menu(/** @type {Studio} */ studio, /** @type {string} */ button) 
   await page.getByRole('button', { name: button }).click();
   const opened = page.getByRole('menu', { name: button });
   await seen(opened);
-  await look(studio, `the menu “${button}”`);
+  await look(studio, `the menu “${button}”`, opened);
   await press('ArrowDown');
   await seen(opened.locator('[role=menuitem]:focus'));
-  await look(studio, `the menu “${button}”, an item chosen`);
+  await look(studio, `the menu “${button}”, an item chosen`, opened);
   await press('Escape');
   await opened.waitFor({ state: 'hidden' });
 }

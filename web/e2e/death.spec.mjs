@@ -10,7 +10,7 @@ import { hands } from './support/studio.mjs';
 import { until } from './support/until.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
-const kKills = Number(process.env.VAGUS_KILLS ?? 10);
+const kKills = Number(process.env.VAGUS_KILLS ?? 4);
 const kTestMs = 60_000 + kKills * 20_000;
 const kSecond = 1000;
 const kLettersMax = 80;

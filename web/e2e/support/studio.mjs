@@ -10,8 +10,8 @@ import { kPatience, until } from './until.mjs';
 
 export { until };
 
-/** What drawing by software says of itself. */
-const kNoise = /GL Driver Message/;
+/** What drawing by software says of itself, and of tests that read what is drawn. */
+const kNoise = /GL Driver Message|operations using getImageData are faster/;
 const kTestMs = 150_000;
 const kPictures = join(root, 'build/e2e');
 

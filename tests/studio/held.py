@@ -156,7 +156,7 @@ class Held(Case):
         self.assertIn("no event of the bus waits", self.refused("conflict", "plan.held.step"))
         self.assertEqual(self.plan.value["state"], "paused")
         page.do("plan.continue")
-        self.wait_clock("running")
+        self.wait(lambda: not self.held.value["stands"], "a plan that goes on")
         self.assertIn("only while it is paused", self.refused("conflict", "plan.held.drop"))
         self.assertEqual(self.actor(), "b")
 

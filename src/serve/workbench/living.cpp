@@ -99,8 +99,10 @@ void Workbench::perform(const life::OpenRunner& open) {
     tell_life(life::Failed{opened.error().what});
 }
 
+// A run begins at the start of its world. Robots stay where they are if somebody has put them there
+// since the run before, or if the plan begins at a later actor.
 Status Workbench::open_plan(RunOrder order) {
-    const bool stays = !order.plan.empty() && run_.time() > 0 && !world_has_changed();
+    const bool stays = (placed_by_hand_ || !order.from.empty()) && !world_has_changed();
     if (!bus_) return open_world(order, stays && !order.past);
     order.world.clear();
     order.bus = TRY(bus_->open_door());
@@ -111,6 +113,7 @@ Status Workbench::open_plan(RunOrder order) {
 
 Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_poses = keep_poses;
+    if (!keep_poses) run_is_over_ = placed_by_hand_ = false;
     loaded_by_world_.clear();
     continues_at_.reset();
     if (order.past) continues_at_ = order.past->t;
@@ -186,6 +189,7 @@ void Workbench::perform(const life::PauseNodes& pause) {
 // From here on the events of a bus have the clock of the plan, in the list as in its story.
 void Workbench::perform(const life::CountStart&) {
     if (bus_) bus_since_ = now_;
+    run_is_over_ = placed_by_hand_ = false;
     ++runs_;
 }
 
@@ -263,6 +267,7 @@ void Workbench::perform(const life::AnswerStop& answer) {
 void Workbench::perform(const life::Tell& told) {
     desk_.topics().touch("end");
     if (told.again) return ends_.renew(told.end);
+    run_is_over_ = true;
     ends_.add(told.end, clock(), desk_.wall_ms());
     say(ends_.kind(), ends_.sentence());
     ended_(told.end);

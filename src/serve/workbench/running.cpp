@@ -98,6 +98,11 @@ void Workbench::note_opened_world(const std::string& text) {
     desk_.topics().touch("studio");
 }
 
+void Workbench::touch_world() {
+    world_touched_ = true;
+    if (run_is_over_ || run_.rests()) placed_by_hand_ = true;
+}
+
 // Another image in the file of the ground makes it another world.
 void Workbench::look_at_picture() {
     if (picture_.empty() || !project_ || now_ < next_picture_look_) return;
@@ -203,7 +208,9 @@ void Workbench::start_with(const Call& call, const std::string& plan, life::Star
     }
     start.call = keep(call);
     start.plan = !plan.empty();
-    start.world_again = !bus_ && (!simulates() || world_has_changed());
+    const bool ended = !life_.is_live() && (run_is_over_ || life_.is_stopping());
+    const bool at_start = ended && !placed_by_hand_;
+    start.world_again = !bus_ && (!simulates() || world_has_changed() || at_start);
     start.by = who_asks(call);
     // A node that is paused inside its script goes on there.
     start.quiet = !bus_ || target_.quiet() || (plan.empty() && target_.is_paused_inside());
@@ -383,7 +390,7 @@ void Workbench::declare_world_commands() {
             if (hand == "world.move" && !in.contains("robot") && !in.contains("object")) {
                 return call.fail("bad_input", "say what is to be moved: a robot or an object");
             }
-            if (hand != "world.press" && hand != "world.tap") world_touched_ = true;
+            if (hand != "world.press" && hand != "world.tap") touch_world();
             run_.lend_hand(hand_order(hand, in),
                            [call](std::optional<uint32_t> number, const std::string& why) {
                                if (!why.empty()) return call.fail("bad_input", why);

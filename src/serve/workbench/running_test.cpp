@@ -154,6 +154,46 @@ TEST_F(RunningTest, AWorldThatStandsThereIsNotOpenedAgain) {
     EXPECT_THAT(orders(), IsEmpty());  // it is open already
 }
 
+// Pause is for going on.
+TEST_F(RunningTest, RunAfterStopBeginsAtTheStartOfTheWorld) {
+    open({{"world", "w.world.json"}});
+    orders();
+    is_open();
+    say("run.start");
+    turn();
+    say("world.move", {{"robot", "anna"}, {"at", {1, 1}}});
+    say("stop");
+    turn();
+    say("run.start");
+    turn();
+    EXPECT_THAT(orders(), ElementsAre("open"));
+    is_open();
+    say("run.pause");
+    say("run.start");
+    turn();
+    EXPECT_THAT(orders(), IsEmpty());
+}
+
+TEST_F(RunningTest, ARobotThatWasPlacedByHandAfterStopBeginsThere) {
+    open({{"world", "w.world.json"}});
+    orders();
+    is_open();
+    say("run.start");
+    turn();
+    say("stop");
+    turn();
+    say("world.move", {{"robot", "anna"}, {"at", {1, 1}}});
+    say("run.start");
+    turn();
+    EXPECT_THAT(orders(), IsEmpty());
+    // That run is over, too.
+    say("stop");
+    turn();
+    say("run.start");
+    turn();
+    EXPECT_THAT(orders(), ElementsAre("open"));
+}
+
 TEST_F(RunningTest, RunTakesTheSimulatorWhereNothingElseIsChosen) {
     open({{"world", "w.world.json"}});
     orders();

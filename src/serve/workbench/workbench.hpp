@@ -240,6 +240,7 @@ private:
     void follow_world_text();
     void note_opened_world(const std::string& text);
     void look_at_picture();
+    void touch_world();
     void file_saved(const std::string& path);
     void change_plan();
     void check_change(const Call& call);
@@ -345,6 +346,8 @@ private:
     std::string picture_, picture_then_, picture_now_;  // on its ground: path, states of the file
     Time next_picture_look_{};
     bool world_touched_ = false;                       // a hand has changed it since
+    bool run_is_over_ = false;                         // and no other one has begun in its world
+    bool placed_by_hand_ = false;                      // meanwhile, or before the first run
     std::optional<Time> world_edited_;                 // its file; not followed yet
     std::map<uint16_t, std::string> loaded_by_world_;  // source by node
 };

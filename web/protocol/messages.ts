@@ -1235,7 +1235,7 @@ export interface Commands {
   'project.new': { in: {
     name: string;
     robot: 'thymio2' | 'carbot' | 'epuck';
-    /** with a small plan to begin with */
+    /** with a small plan to begin with; a carbot always has a plan, a nearly empty one without this */
     plan: boolean;
   }; out: {
     path: string;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.hpp"
+#include "serve/edit/templates.hpp"
 
 namespace vagus::serve {
 
@@ -158,7 +159,8 @@ std::string plan_name(const std::string& name) {
                                                                           : letters;
 }
 
-std::string plan_text(const std::string& name, const std::string& robot) {
+std::string plan_text(const std::string& name, const std::string& robot, bool small) {
+    if (!small) return new_plan(plan_name(name));
     return fmt::format("{{\n  \"format\": \"vagus-plan/1\",\n  \"name\": {},",
                        quoted(plan_name(name))) +
            (robot == "epuck" ? kWaitingPlan : kDrivingPlan);
@@ -187,16 +189,18 @@ std::string script_text(const std::string& robot, bool plan, const std::string& 
 std::vector<NewFile> new_project_files(const std::string& name, const std::string& robot, bool plan,
                                        const std::string& examples) {
     const std::string script = name + ".aesl";
+    // The scripts of a Carbot are there to be driven by a plan.
+    const bool drawn = plan || robot == "carbot";
     std::string project =
         fmt::format("{{\n  \"format\": \"vagus-project/1\",\n  \"name\": {},\n", quoted(name));
-    if (plan) project += fmt::format("  \"plan\": {},\n", quoted(name + ".plan.json"));
+    if (drawn) project += fmt::format("  \"plan\": {},\n", quoted(name + ".plan.json"));
     project += fmt::format("  \"scripts\": [{}],\n  \"world\": {},\n  \"target\": \"sim\"",
                            quoted(script), quoted(name + ".world.json"));
-    project += plan ? ",\n  \"start\": {\n    \"plan\": true\n  }\n}\n" : "\n}\n";
+    project += drawn ? ",\n  \"start\": {\n    \"plan\": true\n  }\n}\n" : "\n}\n";
     std::vector<NewFile> files = {{"vagus.json", project},
                                   {script, script_text(robot, plan, examples)},
                                   {name + ".world.json", world(name, robot, script)}};
-    if (plan) files.push_back({name + ".plan.json", plan_text(name, robot)});
+    if (drawn) files.push_back({name + ".plan.json", plan_text(name, robot, plan)});
     return files;
 }
 

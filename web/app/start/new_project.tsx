@@ -13,7 +13,9 @@ export default function NewProject() {
   const close = useCloseOverlay();
   const [name, setName] = useState('my-robot');
   const [robot, setRobot] = useState<Robot>('thymio2');
-  const [plan, setPlan] = useState(false);
+  const [chosen, setPlan] = useState<boolean | null>(null);
+  // A Carbot is driven by plans.
+  const plan = chosen ?? robot === 'carbot';
   const why = badName(name);
   const make = () => {
     if (why) return;
@@ -55,13 +57,19 @@ export default function NewProject() {
             ))}
           </select>
         </label>
-        <label className="form__check">
-          <input
-            type="checkbox"
-            checked={plan}
-            onChange={(event) => setPlan(event.target.checked)}
-          />
-          {words.plan}
+        <label>
+          {words.begins}
+          <select
+            className="field field--ui"
+            value={plan ? 'small' : 'none'}
+            onChange={(event) => setPlan(event.target.value === 'small')}
+          >
+            {Object.entries(robot === 'carbot' ? words.plans : words.scripts).map(([id, label]) => (
+              <option key={id} value={id}>
+                {label}
+              </option>
+            ))}
+          </select>
         </label>
         <div className="form__end">
           <Button onClick={close}>{folderWords.close}</Button>

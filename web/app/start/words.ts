@@ -39,7 +39,9 @@ export const newProjectWords = {
   title: 'New project',
   name: 'Name',
   robot: 'Robot',
-  plan: 'With a small plan to begin with',
+  begins: 'Begin with',
+  plans: { small: 'A small plan', none: 'A nearly empty plan' },
+  scripts: { none: 'A script', small: 'A script and a small plan' },
   make: 'Create',
   robots: { thymio2: 'Thymio II', carbot: 'Carbot', epuck: 'e-puck' },
 };

@@ -184,7 +184,7 @@ TEST_F(EditTest, FindingsOfPlansSayWhichMemberIsMissing) {
     EXPECT_EQ(
         next.what,
         "the state \"Done\" of \"a\" leads nowhere; say what comes next: an actor, or the end "
-        "(@terminate)");
+        "(terminate)");
     put("P.plan.json", "\"actor\": \"a\"", "");
     EXPECT_EQ(
         finding("P15").what,

@@ -17,6 +17,17 @@ bool is_name_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
 }
 
+// The ends of a plan by the names that they have in its drawing; what is quoted stays as it is written.
+std::string as_drawn(std::string message) {
+    for (const std::string_view name : {"@terminate", "@ignore"}) {
+        for (size_t at = message.find(name); at != std::string::npos; at = message.find(name, at)) {
+            const bool quoted = at > 0 && message[at - 1] == '"';
+            quoted ? ++at : (message.erase(at, 1), at);
+        }
+    }
+    return message;
+}
+
 // Where in a text a name is a word of its own; npos if it does not.
 size_t find_word(std::string_view text, std::string_view name, size_t from) {
     for (size_t at = text.find(name, from); at != text.npos; at = text.find(name, at + 1)) {
@@ -148,7 +159,7 @@ std::vector<DocFinding> plan_findings(const plan::Findings& findings, const Text
         }
         DocFinding finding{
             one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
-            {},       one.message,  {}};
+            {},       as_drawn(one.message), {}};
         finding.keys = text->second.keys_to(one.line, one.column);
         if (one.missing) {
             if (one.missing->part == "start") finding.keys = nlohmann::json::array();

@@ -187,7 +187,7 @@ test(
     await press('F5');
     await seen(button(/Running/));
     await page.getByRole('textbox', { name: /^Script of/ }).click();
-    await press('Control+Alt+u');
+    await press('Alt+Shift+u');
     await seen(page.getByText(/ is on the robot\.$/));
   },
 );
@@ -258,7 +258,7 @@ test(
     await reads(log, /Plan: show the active actor: No actor is active\./);
     await command('Disconnect');
     await gone(page.getByRole('button', { name: /^State of the bus/ }));
-    await press('Control+Alt+u');
+    await press('Alt+Shift+u');
     await reads(log, /Upload to the node: No node is connected\./);
   },
 );

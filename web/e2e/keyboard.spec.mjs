@@ -49,7 +49,7 @@ test('a robot is programmed without a mouse', {}, async (studio) => {
   await seen(page.getByText('thymio-II paused at line 6'));
 
   // Change a value.
-  await press('Control+Alt+v');
+  await press('Alt+Shift+v');
   const filter = page.getByRole('searchbox', { name: 'Find in all nodes' });
   await until('the filter has the focus', () =>
     filter.evaluate((one) => one === document.activeElement),

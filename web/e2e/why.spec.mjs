@@ -125,7 +125,7 @@ test('what is done by hand and changed is the same again', wall, async (studio) 
   await drive.getByText('const PATIENCE = 15').click();
   await press('End');
   await type('0');
-  await press('Control+Alt+u');
+  await press('Alt+Shift+u');
   await reads(page.locator('.events__list'), /loaded drive/);
   await toNext(studio, 'parallelToWall');
   await press('Shift+F5', 'Control+k');

@@ -21,14 +21,14 @@ export function robotCommands(studio: Studio): Command[] {
   const plotted = () => studio.plotter.state.curves.length > 0;
   const heard = () => studio.happenings.items.length > 0;
   return [
-    command('variables.find', open, () => find(studio, 'variables'), ['Ctrl+Alt+V']),
-    command('watch.add', open, () => find(studio, 'watch'), ['Ctrl+Alt+W']),
+    command('variables.find', open, () => find(studio, 'variables'), ['Alt+Shift+V']),
+    command('watch.add', open, () => find(studio, 'watch'), ['Alt+Shift+W']),
     command(
       'watch.clear',
       () => studio.watched.list.length > 0,
       () => studio.watched.set([]),
     ),
-    command('events.find', open, () => find(studio, 'events'), ['Ctrl+Alt+E']),
+    command('events.find', open, () => find(studio, 'events'), ['Alt+Shift+E']),
     command('events.pause', open, () => pauseEvents(studio)),
     command('events.clear', heard, () => studio.happenings.clear()),
     command('events.csv', heard, () =>
@@ -38,9 +38,9 @@ export function robotCommands(studio: Studio): Command[] {
       'events.send',
       () => drives(studio) && (robotOf(studio)?.kind ?? 'none') !== 'none',
       () => openSend(studio),
-      ['Ctrl+Alt+S'],
+      ['Alt+Shift+S'],
     ),
-    command('plots.add', open, () => find(studio, 'plots'), ['Ctrl+Alt+P']),
+    command('plots.add', open, () => find(studio, 'plots'), ['Alt+Shift+P']),
     command('plots.pause', plotted, () => studio.plotter.pause(!studio.plotter.paused)),
     command('plots.fit', plotted, () => studio.plotter.zoom(null)),
     command('plots.clear', plotted, () =>

@@ -102,7 +102,7 @@ export function nodeCommands(studio: Studio): Command[] {
       id: 'node.load',
       title: titles['node.load'],
       group,
-      keys: ['Ctrl+Alt+U'],
+      keys: ['Alt+Shift+U'],
       enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
       run: () => load(studio, shownNode(studio)?.id ?? 0),
     },

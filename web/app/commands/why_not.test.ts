@@ -13,7 +13,7 @@ const studio = () =>
   }) as unknown as Studio;
 
 test.each([
-  ['Ctrl+Alt+U', true],
+  ['Alt+Shift+U', true],
   ['F12', true],
   ['Alt+Enter', true],
   ['Ctrl+F9', true],
@@ -26,4 +26,16 @@ test.each([
   expect(own.window.getState().toasts.map((one) => one.text)).toEqual(
     says ? ['Upload: No node is connected.'] : [],
   );
+});
+
+// Of a keyboard with AltGr they are characters: Ctrl+Alt+E is the sign of the euro.
+test('NoCommandIsOnAKeyThatAltGrTypes', () => {
+  const files = import.meta.glob<string>(['../**/*.{ts,tsx}', '!../**/*.test.ts'], {
+    query: '?raw',
+    import: 'default',
+    eager: true,
+  });
+  const found = Object.entries(files).filter(([, text]) => /Ctrl\+Alt\+.\b/.test(text));
+  expect(Object.keys(files).length).toBeGreaterThan(100);
+  expect(found.map(([file]) => file)).toEqual([]);
 });

@@ -82,7 +82,7 @@ export function DocumentTools({ doc }: { doc: Doc }) {
         kind="plain"
         small
         disabled={off}
-        tip={`${text.commands['node.load']}  (Ctrl+Alt+U)`}
+        tip={`${text.commands['node.load']}  (Alt+Shift+U)`}
         icon={<IconUpload size={14} stroke={kStroke} />}
         onClick={() => run('node.load')}
         aria-label={text.editor.upload}

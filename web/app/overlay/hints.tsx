@@ -39,7 +39,7 @@ export function Hints({ started }: { started: boolean }) {
     else if (paused) hints.push(['F5', words.continue], ['F10', words.step]);
     else if (errors > 0) hints.push(['Alt+Enter', words.fix]);
     if (doc !== null && kindOf(doc) === 'plan') hints.push(['F9', words.breakpoint]);
-    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Ctrl+Alt+U', words.upload]);
+    if (doc?.includes('#')) hints.push(['F9', words.breakpoint], ['Alt+Shift+U', words.upload]);
     hints.push(['F6', words.next]);
     if (layout === 'Draw' || !doc?.includes('#'))
       hints.push(['Ctrl+K', words.commands], ['?', words.keys]);

@@ -37,7 +37,7 @@ function LoadedNotice({ doc }: { doc: Doc }) {
   return (
     <Line
       end={
-        <Button small kind="plain" keys="Ctrl+Alt+U" onClick={() => registry.run('node.load')}>
+        <Button small kind="plain" keys="Alt+Shift+U" onClick={() => registry.run('node.load')}>
           {words.upload}
         </Button>
       }

@@ -3,13 +3,14 @@ import { pairingOf, type Compared } from '../../../core/pairing';
 import type { ComparedLane } from '../../../protocol/messages';
 import { useStudio } from '../../hooks';
 import { stepThroughRows } from '../../parts/list_keys';
+import { laneWords, recordedWords } from './difference_words';
 import { lookAtBoth } from './look_at_both';
 import { runWords as words } from './words';
 
 /** Where each lane differs first: a click goes there in both; and what the two were started with. */
 export function LaneList({ found }: { found: Compared }) {
   const differ = found.lanes.filter(({ t }) => t !== undefined);
-  const same = found.lanes.filter(({ t }) => t === undefined).map(({ name }) => name);
+  const same = found.lanes.filter(({ t }) => t === undefined).map(({ name }) => laneWords(name));
   return (
     <div className="runs__lanes scroll">
       {differ.length > 0 ? (
@@ -43,10 +44,10 @@ function Row({ lane, found }: { lane: ComparedLane; found: Compared }) {
       className={isOn ? 'runs__lane is-on' : 'runs__lane'}
       onClick={() => lookAtBoth(studio, t)}
     >
-      <span className="runs__name">{place ? `${name}, ${place}` : name}</span>
+      <span className="runs__name">{laneWords(name, place)}</span>
       <time className="num">{inA === inB ? words.at(inA) : words.atBoth(inA, inB)}</time>
-      <Value side="A" text={a} />
-      <Value side="B" text={b} />
+      <Value side="A" text={a && recordedWords(name, a)} />
+      <Value side="B" text={b && recordedWords(name, b)} />
     </button>
   );
 }
@@ -72,8 +73,8 @@ function Started({ found }: { found: Compared }) {
       {found.started.map(({ what, a, b }) => (
         <li key={what}>
           {words.started} {what}
-          <Value side="A" text={a} />
-          <Value side="B" text={b} />
+          <Value side="A" text={a && recordedWords(what, a)} />
+          <Value side="B" text={b && recordedWords(what, b)} />
         </li>
       ))}
     </ul>

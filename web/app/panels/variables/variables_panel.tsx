@@ -108,7 +108,10 @@ function askAbout(studio: Studio, row: VariableRow): void {
     askWhyOf(studio, { node: row.node, name: row.variable.name });
 }
 
-/** Right unfolds, left folds; on what has nothing to unfold they go through its buttons. */
+/**
+ * Right unfolds, left folds; on what has nothing to unfold they go through its buttons. Enter does either
+ * where it has no value to edit.
+ */
 function unfoldKey(
   row: VariableRow,
   event: KeyboardEvent<HTMLElement>,
@@ -119,7 +122,7 @@ function unfoldKey(
   const key = row.is === 'node' ? nodeKey(row.node) : variableKey(row.node, row.variable.name);
   const wanted =
     (event.key === 'ArrowRight' && !row.open) || (event.key === 'ArrowLeft' && row.open);
-  if (!wanted && !(row.is === 'node' && event.key === 'Enter')) return;
+  if (!wanted && (event.key !== 'Enter' || event.defaultPrevented)) return;
   event.preventDefault();
   toggle(key);
 }

@@ -1,9 +1,11 @@
 // How components look at the robot's variables, events and plots.
 
 import { useEffect, useState, useSyncExternalStore, type RefObject } from 'react';
-import type { NodeId, Variable } from '../protocol/messages';
+import type { Node, NodeId, Variable } from '../protocol/messages';
 import type { PickList } from '../core/picks';
-import { useChanges, useStudio } from './hooks';
+import { isReady } from '../core/run_choice';
+import { useChanges, usePart, useStudio } from './hooks';
+import { text } from './text';
 
 /** True while a part of the page can be seen: its tab is in front and it is scrolled into view. */
 export function useShown(place: RefObject<HTMLElement | null>): boolean {
@@ -17,6 +19,14 @@ export function useShown(place: RefObject<HTMLElement | null>): boolean {
     return () => observer.disconnect();
   }, [place]);
   return shown;
+}
+
+/** What a node does, in a word. */
+export function useNodeWord(): (state: Node['state']) => string {
+  const kind = usePart('robot', {}, (is) => is?.kind);
+  const waits = usePart('clock', {}, (is) => kind !== undefined && isReady({ kind }, is));
+  return (state) =>
+    waits && state === 'running' ? text.target.ready : text.target.nodeState[state];
 }
 
 export function usePicks(list: PickList) {

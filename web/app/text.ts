@@ -351,6 +351,13 @@ export const text = {
   },
   run: {
     none: 'Stopped',
+    ready: 'Ready',
+    planEnded: {
+      OK: (plan: string) => `${plan} finished`,
+      Interrupted: (plan: string) => `${plan} was stopped`,
+      Error: (plan: string) => `${plan} failed`,
+    },
+    scriptsRun: 'scripts run',
     lostRun:
       'The studio was started again, and the run ended with it. What was recorded is in the timeline: Open a run before this one.',
     running: 'Running',
@@ -411,6 +418,7 @@ export const text = {
     nodes: (count: number) => (count === 1 ? 'node' : 'nodes'),
     load: 'load',
     lostFrames: 'lost',
+    ready: 'ready',
     nodeState: {
       unknown: 'unknown',
       running: 'running',

@@ -1,6 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import type { Topics } from '../protocol/messages';
-import { missingFor, planInRun, planMeant, runOrder, whatRuns } from './run_choice';
+import {
+  endedPlan,
+  isReady,
+  missingFor,
+  planInRun,
+  planMeant,
+  runOrder,
+  whatRuns,
+} from './run_choice';
 
 const exists = (doc: string) => doc !== 'gone.plan.json';
 const meant = (doc: string | null, kept: unknown, project?: string) =>
@@ -71,6 +79,21 @@ it('what runs is named by its plan, else by its nodes', () => {
   const [first, ...others] = robot('bus', ['a', 'b']).nodes;
   const paused = { nodes: [{ ...first, state: 'paused' }, ...others] } as never;
   expect(whatRuns(paused, plan('none'))).toBe('b');
+});
+
+it('a plan that has ended is told with its result until another run begins', () => {
+  const ended = { ...plan('ended', 'x/Wall.plan.json'), result: 'OK' } as never;
+  expect(endedPlan(ended)).toEqual({ name: 'Wall', result: 'OK' });
+  expect(endedPlan(plan('running', 'Wall.plan.json'))).toBeNull();
+  expect(endedPlan(plan('none'))).toBeNull();
+});
+
+it('nodes of a simulator wait until its time passes for the first time', () => {
+  const simulator = { kind: 'simulator' } as const;
+  expect(isReady(simulator, { state: 'none', t: 0 })).toBe(true);
+  expect(isReady(simulator, { state: 'none', t: 2.5 })).toBe(false);
+  expect(isReady(simulator, { state: 'running', t: 0 })).toBe(false);
+  expect(isReady({ kind: 'bus' }, { state: 'none', t: 0 })).toBe(false);
 });
 
 it('what a run lacks is told by the target, the world and the nodes', () => {

@@ -68,6 +68,25 @@ export function whatRuns(robot: Robot | undefined, plan: Plan | undefined): stri
   return runs.map((node) => node.name).join(', ');
 }
 
+export interface EndedPlan {
+  name: string;
+  result: NonNullable<Plan['result']>;
+}
+
+/** The plan that ran last in the run that is there, once it has ended. */
+export function endedPlan(plan: Plan | undefined): EndedPlan | null {
+  if (plan?.state !== 'ended' || plan.doc === undefined || !plan.result) return null;
+  return { name: planName(plan.doc), result: plan.result };
+}
+
+/** In a simulator whose time has not begun to pass, nodes have their scripts and wait. */
+export function isReady(
+  robot: Pick<Robot, 'kind'> | undefined,
+  clock: Pick<Topics['clock']['is'], 'state' | 't'> | undefined,
+): boolean {
+  return robot?.kind === 'simulator' && clock?.state === 'none' && clock.t === 0;
+}
+
 export function planName(doc: Doc): string {
   return doc.replace(/^.*\//, '').replace(/\.plan\.json$/, '');
 }

@@ -54,7 +54,7 @@ function PhoneClock() {
     );
   return (
     <span className={`phone__clock num clock--${state}`}>
-      {text.run[state]} · {t.toFixed(1)} s
+      {state === 'none' && t === 0 ? text.run.ready : text.run[state]} · {t.toFixed(1)} s
     </span>
   );
 }

@@ -1,6 +1,7 @@
 import type { Node } from '../../protocol/messages';
 import { useStudio, useTopic } from '../hooks';
 import { tipOf } from '../parts/button';
+import { useNodeWord } from '../robot_hooks';
 import { text } from '../text';
 
 const kBarsMax = 12;
@@ -9,9 +10,13 @@ const kBarsMax = 12;
 export function Bus() {
   const { registry } = useStudio();
   const robot = useTopic('robot', {});
+  const wordOf = useNodeWord();
   if (!robot || robot.kind === 'none') return null;
   const { nodes, load, lost } = robot;
-  const summary = nodes.length > kBarsMax ? counted(nodes) : nodes.map(describe).join(', ');
+  const summary =
+    nodes.length > kBarsMax
+      ? counted(nodes, wordOf)
+      : nodes.map(({ name, state }) => `${name} ${wordOf(state)}`).join(', ');
   // Of many nodes those are shown first that do not run: they are what one looks for.
   const shown =
     nodes.length > kBarsMax
@@ -49,15 +54,9 @@ export function Bus() {
   );
 }
 
-function describe(node: Node): string {
-  return `${node.name} ${text.target.nodeState[node.state]}`;
-}
-
 /** "97 running, 3 paused": of many nodes only how many are in which state. */
-function counted(nodes: readonly Node[]): string {
+function counted(nodes: readonly Node[], wordOf: (state: Node['state']) => string): string {
   const counts = new Map<Node['state'], number>();
   for (const { state } of nodes) counts.set(state, (counts.get(state) ?? 0) + 1);
-  return [...counts]
-    .map(([state, count]) => text.target.nodesIn(count, text.target.nodeState[state]))
-    .join(', ');
+  return [...counts].map(([state, count]) => text.target.nodesIn(count, wordOf(state))).join(', ');
 }

@@ -8,7 +8,7 @@ import {
 } from '@tabler/icons-react';
 import type { Topics } from '../../protocol/messages';
 import { usePart, useStudio } from '../hooks';
-import { whatRuns } from '../../core/run_choice';
+import { endedPlan, whatRuns } from '../../core/run_choice';
 import { useEnd, useMayAct, usePastTime } from '../past_hooks';
 import { shownTime } from '../../core/numbers';
 import { Button } from '../parts/button';
@@ -32,10 +32,14 @@ export function Clock() {
   const why = usePart('clock', {}, (is) => is?.why);
   const nodes = usePart('robot', {}, (is) => whatRuns(is, undefined));
   const plan = usePart('plan', {}, (is) => whatRuns(undefined, is));
-  const runs = plan || nodes;
+  const ended = usePart('plan', {}, (is) => {
+    const last = endedPlan(is);
+    return last ? text.run.planEnded[last.result](last.name) : '';
+  });
   const isBus = usePart('robot', {}, (is) => is?.kind === 'bus');
   // On a bus there is a clock only while a plan runs.
   if (isBus && state === 'none') return <RunsAlone names={nodes} />;
+  const said = stateText({ state, t, plan, nodes, ended });
   const Icon =
     past !== null
       ? IconHistory
@@ -45,13 +49,17 @@ export function Clock() {
           ? IconPlayerStopFilled
           : IconPlayerPauseFilled;
   const button = (
-    <button type="button" className={`clock clock--${past === null ? state : 'past'}`} title={why}>
+    <button
+      type="button"
+      className={`clock clock--${past === null ? state : 'past'}`}
+      title={why ?? said}
+    >
       <Icon className="icon" size={14} aria-hidden />
       <span className="clock__time">
         {past === null ? t.toFixed(state === 'paused' ? 3 : 1) : shownTime(past)} s
       </span>
       <span className="clock__state">
-        {past === null ? stateText(state, runs) : text.past.agoShort((end - past).toFixed(1))}
+        {past === null ? said : text.past.agoShort((end - past).toFixed(1))}
       </span>
       <span className="clock__line" />
       <span className="hidden-text">{text.menu.speed}</span>
@@ -109,13 +117,25 @@ function RunsAlone({ names }: { names: string }) {
   return (
     <span className="clock clock--running" title={names}>
       <IconPlayerPlayFilled className="icon" size={14} aria-hidden />
-      <span className="clock__state">{stateText('running', names)}</span>
+      <span className="clock__state">{`${text.run.running}: ${names}`}</span>
     </span>
   );
 }
 
-/** "Running: WallFollow": a world alone says so, too. */
-function stateText(state: Topics['clock']['is']['state'], runs: string): string {
-  const word = text.run[state];
-  return state === 'running' ? `${word}: ${runs || text.run.worldOnly}` : word;
+interface Shown {
+  state: Topics['clock']['is']['state'];
+  t: number;
+  /** What runs, by name. */
+  plan: string;
+  nodes: string;
+  /** How the plan before ended. */
+  ended: string;
+}
+
+/** "Running: WallFollow", "WallFollow finished, scripts run"; a world alone says so, too. */
+function stateText({ state, t, plan, nodes, ended }: Shown): string {
+  if (state === 'none' && t === 0) return text.run.ready;
+  if (state !== 'running') return text.run[state];
+  if (ended) return nodes ? `${ended}, ${text.run.scriptsRun}` : ended;
+  return `${text.run.running}: ${plan || nodes || text.run.worldOnly}`;
 }

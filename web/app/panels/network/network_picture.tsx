@@ -4,7 +4,7 @@ import { shownRate } from '../../../core/numbers';
 import { partners, pictureOf, type Picture } from '../../../core/traffic';
 import { update } from '../../../core/window_state';
 import { useStudio, useWindow } from '../../hooks';
-import { text } from '../../text';
+import { useNodeWord } from '../../robot_hooks';
 import { words } from './words';
 import { NodeBox, NodeRay } from './node_shapes';
 import { Arrows, usesSpokes } from './arrows';
@@ -76,9 +76,10 @@ function Partner({
   onChoose(): void;
 }) {
   const spot = picture.spots.get(id);
+  const wordOf = useNodeWord();
   if (!spot) return null;
   const { says = 0, hears = 0 } = network.talk.get(id) ?? {};
-  const state = node ? text.target.nodeState[node.state] : words.hostHelp;
+  const state = node ? wordOf(node.state) : words.hostHelp;
   const name = network.nameOf(id);
   // The title is the accessible name, and the tip.
   const label = `${name} ${id === 0 ? '' : id}, ${state}, ${words.says} ${shownRate(says)}${words.aSecond}, ${words.hears} ${shownRate(hears)}${words.aSecond}`;

@@ -4,6 +4,7 @@ import { shownRate } from '../../../core/numbers';
 import { revealDoc, update } from '../../../core/window_state';
 import type { NodeAct } from '../../commands/run_commands';
 import { useStudio, useWindow } from '../../hooks';
+import { useNodeWord } from '../../robot_hooks';
 import { StateSign } from '../../parts/state_sign';
 import { text } from '../../text';
 import { words } from './words';
@@ -67,6 +68,7 @@ const Row = memo(NodeRow, (before, after) => JSON.stringify(before) === JSON.str
 
 function NodeRow({ node, says, hears, chosen }: RowProps) {
   const { window: store } = useStudio();
+  const wordOf = useNodeWord();
   const { id, name, state, at, program, doc, fault, busy, stop } = node;
   const unstopped = stop !== undefined && stop !== 'stopped' ? text.stop.states[stop] : undefined;
   const choose = () =>
@@ -98,7 +100,7 @@ function NodeRow({ node, says, hears, chosen }: RowProps) {
       <td className={(fault ?? unstopped) ? 'is-error' : undefined} title={fault}>
         <span className="table__state">
           <StateSign state={state} />
-          {unstopped ?? busy ?? text.target.nodeState[state]}
+          {unstopped ?? busy ?? wordOf(state)}
           {at ? <span className="muted">{words.line(at.line)}</span> : null}
         </span>
       </td>

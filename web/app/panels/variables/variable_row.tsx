@@ -3,6 +3,7 @@ import { memo } from 'react';
 import type { NumberForm } from '../../../core/numbers';
 import type { VariableRow } from '../../../core/variable_rows';
 import { useTopic } from '../../hooks';
+import { useNodeWord } from '../../robot_hooks';
 import { kStroke } from '../../parts/icons';
 import { WriteScript } from '../../parts/write_script';
 import { text } from '../../text';
@@ -65,6 +66,7 @@ function NodeRow({
   onToggle(): void;
 }) {
   const Icon = row.open ? IconChevronDown : IconChevronRight;
+  const wordOf = useNodeWord();
   const node = useTopic('robot', {})?.nodes.find((one) => one.id === row.node);
   const button = (
     <button
@@ -79,7 +81,7 @@ function NodeRow({
       <span className="ellipsis">{row.name}</span>
       <span className="muted num">{row.node}</span>
       <span className="grow" />
-      <span className="variables__state">{text.target.nodeState[row.state]}</span>
+      <span className="variables__state">{wordOf(row.state)}</span>
     </button>
   );
   if (!node || node.doc || node.state === 'gone') return button;

@@ -14,7 +14,7 @@ import { askWhyOf, isWhyKey } from '../../commands/ask_why';
 import { useStudio, useTopic } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
-import { usePicks, useShown, useVariablesOf } from '../../robot_hooks';
+import { useNodeWord, usePicks, useShown, useVariablesOf } from '../../robot_hooks';
 import { text } from '../../text';
 import { FormButton } from './form_button';
 import { Missing } from './missing_line';
@@ -108,12 +108,13 @@ function Rows({ rows, form }: { rows: readonly Row[]; form: NumberForm }) {
 }
 
 function NodeHead({ row }: { row: Extract<Row, { is: 'node' }> }) {
+  const wordOf = useNodeWord();
   if (row.id === kPlanNode) return <div className="variables__node">{words.ofPlan}</div>;
   return (
     <div className="variables__node">
       <span className="ellipsis">{row.node?.name ?? row.id}</span>
       <span className="grow" />
-      <span className="variables__state">{text.target.nodeState[row.node?.state ?? 'gone']}</span>
+      <span className="variables__state">{wordOf(row.node?.state ?? 'gone')}</span>
     </div>
   );
 }

@@ -25,6 +25,7 @@ export function SpeedBar() {
   const studio = useStudio();
   const drives = useMayAct();
   const state = usePart('clock', {}, (is) => is?.state);
+  const ready = usePart('clock', {}, (is) => is?.state === 'none' && is.t === 0);
   const speed = usePart('clock', {}, (is) => is?.speed);
   const real = usePart('clock', {}, (is) => is?.real.toFixed(1) ?? '');
   const simulates = usePart('robot', {}, (is) => is?.kind === 'simulator');
@@ -59,7 +60,9 @@ export function SpeedBar() {
         disabled={!drives}
         onChoose={(one) => one !== undefined && studio.order('clock.speed', { speed: one })}
       />
-      <span className="speedbar__real num">{runs ? words.measured(real) : text.run[state]}</span>
+      <span className="speedbar__real num">
+        {runs ? words.measured(real) : ready ? text.run.ready : text.run[state]}
+      </span>
       <Button
         kind="plain"
         small

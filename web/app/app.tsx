@@ -31,6 +31,8 @@ export function App() {
       withGlobalClasses={false}
       withStaticClasses={false}
     >
+      {/* First, as it chooses the layout of a project that is opened. */}
+      <WindowLife />
       {isPhone && !isFleet ? (
         <Suspense fallback={null}>
           <Phone />
@@ -38,7 +40,6 @@ export function App() {
       ) : (
         <Desk />
       )}
-      <WindowLife />
       <RobotLife />
       <Overlay />
       <Toasts />

@@ -1,6 +1,6 @@
 // What lives as long as the window: theme, keys, the layout that was chosen last.
 
-import { useEffect, useEffectEvent, useRef, useState } from 'react';
+import { useEffect, useEffectEvent, useLayoutEffect, useRef, useState } from 'react';
 import { isLayoutName } from '../core/layouts';
 import type { Theme } from '../core/settings';
 import type { Studio } from '../core/studio';
@@ -94,7 +94,7 @@ function useFirstLayout(studio: Studio): void {
     if (first === null || studio.window.getState().isLayoutChosen) return;
     update(studio.window, (draft) => void (draft.layout = first));
   });
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (known && folder !== undefined) open();
   }, [known, folder]);
 }

@@ -71,6 +71,8 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
 
   useLayoutEffect(() => {
     if (!ready || !frameRef.current) return;
+    // Another one has just been chosen: of this one nothing is opened that would stay.
+    if (studio.window.getState().layout !== layout) return;
     const { clientWidth: width, clientHeight: height } = frameRef.current;
     extent.current = { width, height };
     const plan = planOf(layout, small, lacks);

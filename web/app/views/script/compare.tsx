@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from 'react';
 import type { Doc } from '../../../protocol/messages';
 import { useStudio } from '../../hooks';
 import { text } from '../../text';
+import '../../look/editor.css';
 
 interface Shown {
   doc: Doc;

@@ -9,6 +9,7 @@ import { StudioMenu } from '../../../parts/menu';
 import { drawWords as words } from '../words';
 import { TemplateIcon } from './template_icon';
 import type { Asked } from './use_connecting';
+import '../../../look/draw.css';
 
 /** "Connect to…": all that a state or event may lead to, by keyboard or after a drop on nothing. */
 export function ConnectMenu(props: {

@@ -240,7 +240,7 @@ test(
     await does('r2', 'stopped');
     await command('Show the fleet, or the project');
     await seen(editor('thymio-II'));
-    await seen(button(/Stopped|Ended/));
+    await seen(button(/Ready|Stopped|Ended/));
   },
 );
 

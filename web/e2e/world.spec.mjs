@@ -55,7 +55,7 @@ test('a robot drives in it; hands move, press, put down', thymio, async (studio)
     return (await things()) === count + 1;
   });
   await command('Simulation back to its start');
-  await seen(page.getByRole('button', { name: /Stopped/ }));
+  await seen(page.getByRole('button', { name: /Ready/ }));
   await until(
     'it is back',
     async () => Math.abs((await pose(page, 'thymio'))[0] - before[0]) < 0.005,

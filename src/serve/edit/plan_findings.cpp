@@ -17,7 +17,7 @@ bool is_name_letter(char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
 }
 
-// The ends of a plan by the names that they have in its drawing; what is quoted stays as it is written.
+// The ends of a plan by their names in its drawing; what is quoted stays as it is written.
 std::string as_drawn(std::string message) {
     for (const std::string_view name : {"@terminate", "@ignore"}) {
         for (size_t at = message.find(name); at != std::string::npos; at = message.find(name, at)) {
@@ -157,9 +157,14 @@ std::vector<DocFinding> plan_findings(const plan::Findings& findings, const Text
             const auto read = text_of(one.file);
             text = texts.try_emplace(one.file, read.ok() ? read.value() : "").first;
         }
-        DocFinding finding{
-            one.file, one.severity, one.rule, one.element, {one.line, std::max(one.column, 1)},
-            {},       as_drawn(one.message), {}};
+        DocFinding finding{one.file,
+                           one.severity,
+                           one.rule,
+                           one.element,
+                           {one.line, std::max(one.column, 1)},
+                           {},
+                           as_drawn(one.message),
+                           {}};
         finding.keys = text->second.keys_to(one.line, one.column);
         if (one.missing) {
             if (one.missing->part == "start") finding.keys = nlohmann::json::array();

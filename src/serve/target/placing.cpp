@@ -27,6 +27,13 @@ LineMap Target::lines_between(uint16_t node, Direction direction) const {
     return to_text ? LineMap(loaded, script->source) : LineMap(script->source, loaded);
 }
 
+bool Target::runs_older_text(uint16_t node) const {
+    const auto known = known_.find(node);
+    const CompiledScript* script = scripts_.compiled(doc_of(node));
+    return script && known != known_.end() && known->second.has_program &&
+           known->second.loaded != script->source;
+}
+
 void Target::place_breakpoints() {
     desk_.topics().touch("breakpoints");
     remember_lines();
@@ -62,7 +69,10 @@ void Target::place_breakpoints(uint16_t node) {
         });
         if (known) continue;
         const auto asked = network_->set_breakpoint(node, *line, wanted.condition);
-        mark->why = asked.ok() ? "" : asked.error().what;
+        // The reason of the node has the line numbers of the text that it has loaded.
+        const bool no_line = !asked.ok() && asked.error().code == Code::NotFound;
+        const bool older = no_line && runs_older_text(node);
+        mark->why = asked.ok() ? "" : older ? kNotLoaded : asked.error().what;
     }
 }
 

@@ -74,6 +74,15 @@ TEST_F(PlacingTest, ALineThatTheNodeDoesNotHaveIsSaidAndSetWithItsScript) {
     EXPECT_TRUE(breakpoints.all()[0].set);
 }
 
+// In the numbers of the older text the next line with code may be anywhere.
+TEST_F(PlacingTest, WhichLineOfTheOlderTextHasNoCodeIsNotSaid) {
+    run();
+    type("n = 1\nonevent tick\n  n = n + 1\n");
+    set(1);
+    EXPECT_FALSE(breakpoints.all()[0].set);
+    EXPECT_THAT(breakpoints.all()[0].why, HasSubstr("the node runs an older text"));
+}
+
 TEST_F(PlacingTest, WhatTheProjectHasKeptStaysWithItsLinesToo) {
     const Json kept = {{"doc", kDoc}, {"line", 3u}};
     breakpoints.from_json(Json::array({kept}));

@@ -335,6 +335,7 @@ private:
     // Lines of what a node has loaded against those of the text as it is now.
     enum class Direction { ToText, ToNode };
     LineMap lines_between(uint16_t node, Direction direction) const;
+    bool runs_older_text(uint16_t node) const;
     void remember_lines();
     void follow_lines(const std::string& file);
     void place_breakpoints(uint16_t node);

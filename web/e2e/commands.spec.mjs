@@ -179,7 +179,7 @@ test(
 );
 
 test(
-  'Ctrl+Alt+U in the editor uploads its script',
+  'Alt+Shift+U in the editor uploads its script',
   { words: ['--example', 'thymio'] },
   async (studio) => {
     const { page, press, button, layout } = studio;

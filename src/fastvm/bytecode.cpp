@@ -20,8 +20,10 @@ void Bytecode::notice(vm::Notice notice) {
     if (notice == vm::Notice::Reset) cells_.clear();
 }
 
-const Cells& Bytecode::cells(uint16_t variables_size) {
-    if (cells_.empty()) cells_ = decode(words_, variables_size);
+const Cells& Bytecode::cells(uint16_t variables_size, std::span<const uint16_t> breakpoints) {
+    if (!cells_.empty() && std::ranges::equal(breakpoints, breakpoints_)) return cells_;
+    breakpoints_.assign(breakpoints.begin(), breakpoints.end());
+    cells_ = decode(words_, variables_size, breakpoints_);
     return cells_;
 }
 

@@ -39,14 +39,15 @@ public:
     // To be called with every notice of the machine.
     void notice(vm::Notice notice);
 
-    // For run(). The cells stay until the next notice or load.
-    const Cells& cells(uint16_t variables_size);
+    // For run(). The cells stay until the next notice or load, or other breakpoints.
+    const Cells& cells(uint16_t variables_size, std::span<const uint16_t> breakpoints);
     // Bytes beside the words themselves.
     size_t decoded_bytes() const { return cells_.capacity() * sizeof(Cell); }
 
 private:
     std::vector<uint16_t> words_;
-    Cells cells_;  // empty: to be made
+    Cells cells_;                        // empty: to be made
+    std::vector<uint16_t> breakpoints_;  // for which they were made
 };
 
 }  // namespace vagus::fastvm

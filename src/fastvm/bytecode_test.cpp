@@ -59,15 +59,15 @@ TEST(Bytecode, IsDecodedOnlyAsFarAsTheProgramGoes) {
     EXPECT_EQ(bytecode.decoded_bytes(), 0u);
     bytecode.load(std::vector<uint16_t>{3, 0xffff, 3, 0x1001, 0x4005});
     // Five words, two zeros that may belong to the last instruction, and the cell at the end.
-    EXPECT_EQ(bytecode.cells(kVariables).size(), 8u);
+    EXPECT_EQ(bytecode.cells(kVariables, {}).size(), 8u);
     EXPECT_EQ(bytecode.decoded_bytes(), 8 * sizeof(Cell));
 }
 
 TEST(Bytecode, IsDecodedToItsLastWordAndNotBeyond) {
     Bytecode bytecode(2);
     bytecode.load(std::vector<uint16_t>{0x1001, 0x2000});  // the second word of 0x2000 is missing
-    EXPECT_EQ(bytecode.cells(kVariables).size(), 3u);
-    EXPECT_EQ(bytecode.cells(kVariables)[1].cost, 0);
+    EXPECT_EQ(bytecode.cells(kVariables, {}).size(), 3u);
+    EXPECT_EQ(bytecode.cells(kVariables, {})[1].cost, 0);
 }
 
 TEST(Bytecode, WhatAHostWritesIsRun) {

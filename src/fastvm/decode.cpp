@@ -61,8 +61,12 @@ constexpr Operand kOnStack;
 
 class Decoder {
 public:
-    Decoder(std::span<const uint16_t> bytecode, uint16_t variables_size)
-        : bytecode_(bytecode), variables_size_(variables_size), cells_(count() + 1) {}
+    Decoder(std::span<const uint16_t> bytecode, uint16_t variables_size,
+            std::span<const uint16_t> breakpoints)
+        : bytecode_(bytecode),
+          variables_size_(variables_size),
+          breakpoints_(breakpoints),
+          cells_(count() + 1) {}
 
     Cells decode() {
         cells_.back().handler = slow();
@@ -101,6 +105,10 @@ private:
         return true;
     }
 
+    bool is_breakpoint(size_t at) const {
+        return std::find(breakpoints_.begin(), breakpoints_.end(), at) != breakpoints_.end();
+    }
+
     // It can do nothing wrong but divide by zero or leave an array: all else is known beforehand.
     bool is_sound(size_t at) const {
         switch (opcode(at)) {
@@ -135,11 +143,11 @@ private:
     }
 
     // Leaves the cell at no cost, so that vm::run() is called there, if the instruction is not for
-    // cells, or if the stretch would become too long.
+    // cells or has a breakpoint, or if the stretch would become too long.
     void price(size_t at) {
         const Shape shape = shape_of(word(at));
         const auto words = static_cast<size_t>(shape.words);
-        if (words == 0 || at + words > bytecode_.size()) return;
+        if (words == 0 || at + words > bytecode_.size() || is_breakpoint(at)) return;
         if (!has_fixed_words(at, words) || !is_sound(at)) return;
         Cell after;
         if (!ends_stretch(opcode(at))) after = cells_[at + words];
@@ -259,13 +267,15 @@ private:
 
     std::span<const uint16_t> bytecode_;
     uint16_t variables_size_;
+    std::span<const uint16_t> breakpoints_;
     Cells cells_;
 };
 
 }  // namespace
 
-Cells decode(std::span<const uint16_t> bytecode, uint16_t variables_size) {
-    return Decoder(bytecode, variables_size).decode();
+Cells decode(std::span<const uint16_t> bytecode, uint16_t variables_size,
+             std::span<const uint16_t> breakpoints) {
+    return Decoder(bytecode, variables_size, breakpoints).decode();
 }
 
 }  // namespace vagus::fastvm

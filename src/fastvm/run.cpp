@@ -32,15 +32,17 @@ int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
 
 uint16_t run(vm::Vm& vm, Bytecode& bytecode, uint16_t limit) {
     assert(vm.config->bytecode == bytecode.memory());
-    const bool runs = vm::is_active(vm) && !vm::is_paused_in_event(vm);
-    if (!runs || vm.breakpoint_count > 0) return vm::run(vm, limit);
-    const Cells& cells = bytecode.cells(vm.config->variables_size);
+    if (!vm::is_active(vm) || vm::is_paused_in_event(vm)) return vm::run(vm, limit);
+    const Cells& cells =
+        bytecode.cells(vm.config->variables_size, {vm.config->breakpoints, vm.breakpoint_count});
     int done = 0;
     while (done < limit && vm::is_active(vm)) {
         vm.flags |= wire::kFlagRunning;
         const int quick = run_stretch(vm, cells, limit - done);
         done += quick;
         if (quick == 0) done += vm::run(vm, 1);
+        // At a breakpoint, where the machine still counts as running.
+        if (vm::is_paused_in_event(vm)) return static_cast<uint16_t>(done);
     }
     vm.flags &= static_cast<uint16_t>(~wire::kFlagRunning);
     return static_cast<uint16_t>(done);

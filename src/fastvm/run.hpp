@@ -4,8 +4,8 @@
 //     fastvm::run(vm, bytecode, 1000);  // instead of vm::run(vm, 1000)
 //
 // All that can be seen is the same after every run, whatever its limit: registers, stack,
-// variables, bytecode, messages, calls of the Host and what they see. Machines with breakpoints,
-// and single instructions that fault, are run by vm::run() itself.
+// variables, bytecode, messages, calls of the Host and what they see. Instructions with
+// breakpoints, and those that fault, are run by vm::run() itself.
 #pragma once
 
 #include "fastvm/bytecode.hpp"

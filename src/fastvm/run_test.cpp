@@ -48,6 +48,36 @@ TEST(FastRun, StopsInTheMiddleOfWhatIsExecutedTogether) {
     }
 }
 
+// The same with a breakpoint at each of its instructions in turn.
+TEST(FastRun, StopsAtABreakpointInTheMiddleOfWhatIsExecutedTogether) {
+    for (uint16_t at = 3; at <= 7; ++at) {
+        TestMachine machine;
+        machine.load({op(Opcode::Load, 10), op(Opcode::Load, 11), binary(isa::BinaryOperator::Add),
+                      op(Opcode::Store, 12), kStop});
+        machine.variables[10] = 30;
+        machine.command(wire::MessageType::BreakpointSet, {at});
+        machine.sent();
+        EXPECT_EQ(machine.run(100), at - 3);
+        EXPECT_EQ(machine.vm.pc, at);
+        // Section 3.7: STEP is set, ACTIVE and RUNNING stay.
+        EXPECT_EQ(machine.vm.flags, 7);
+        EXPECT_THAT(machine.sent(), ElementsAre(vm::state(at, 7)));
+        EXPECT_EQ(machine.variables[12], at == 7 ? 30 : 0);
+    }
+}
+
+// Only the instruction with the breakpoint, and stretches end before it.
+TEST(FastRun, ABreakpointLeavesAllElseToTheFastLoop) {
+    const std::vector<uint16_t> words = {op(Opcode::Load, 10), op(Opcode::Load, 11),
+                                         binary(isa::BinaryOperator::Add), op(Opcode::Store, 12),
+                                         kStop};
+    const std::vector<uint16_t> breakpoints = {2, 1000};
+    const Cells cells = decode(words, 600, breakpoints);
+    std::vector<int> costs;
+    for (size_t i = 0; i < words.size(); ++i) costs.push_back(cells[i].cost);
+    EXPECT_THAT(costs, ElementsAre(2, 1, 0, 2, 1));
+}
+
 TEST(FastRun, DivisionByZeroLeavesWhatTheSingleInstructionWouldLeave) {
     TestMachine machine;
     const auto sent =
@@ -160,7 +190,7 @@ TEST(FastRun, AReturnBehindTheProgramStopsAtThatWord) {
     for (uint16_t target = 6; target < 20; ++target) {
         TestMachine machine;
         machine.load({0x2000, target, op(Opcode::SubRet, 0)});
-        ASSERT_EQ(decode({machine.bytecode.data(), machine.bytecode.size()}, 600).size(), 9u);
+        ASSERT_EQ(decode({machine.bytecode.data(), machine.bytecode.size()}, 600, {}).size(), 9u);
         EXPECT_EQ(machine.run(100), 3) << target;
         EXPECT_EQ(machine.vm.pc, target);
         EXPECT_EQ(machine.vm.depth, 0);

@@ -78,6 +78,9 @@ struct StateChanged {
 using wire::FaultKind;
 // "array_access", "division_by_zero", "killed", "node_specific".
 const char* name_of(FaultKind kind);
+// What is said of a handler that runs for so long that it must have no end; nodes do not tell it.
+inline constexpr const char* kEndlessText =
+    "what it does at an event does not end; it may be in an endless loop";
 struct Fault {
     FaultKind kind = FaultKind::NodeSpecific;
     CodePlace at;

@@ -67,16 +67,22 @@ void RobotCommands::obey(const fleet::Command& command, Answered done) {
     const Done told = [done = std::move(done)](const std::string& why) { done(answer_of(why)); };
     if (verb == "start") return start(told);
     if (verb == "pause") return pause(told);
-    if (verb == "continue") return nodes_.go_on(told);
+    if (verb == "continue") return go_on(told);
+    if (verb == "raise") return raise(command, told);
     if (verb == "set") return set(command, told);
     if (verb == "emit" || verb == "identify") {
         const std::string& event = verb == "emit" ? command.event : verb;
-        const Status sent = robot_.session->emit(event, command.values, robot_.session->now());
-        return told(sent.ok() ? "" : sent.error().what);
+        return told(emit(event, command.values));
     }
-    told(verb +
-         " is not possible for a robot of a world; serve it (`vagus serve --fleet`), or "
-         "emit an event that its scripts or its plan hear");
+    told(verb + " is no command of this version");
+}
+
+// The plan is a host as well: what the fleet says on the bus does not come back to it from there.
+std::string RobotCommands::emit(const std::string& event, const std::vector<int16_t>& values) {
+    const Status sent = robot_.session->emit(event, values, robot_.session->now());
+    if (!sent.ok()) return sent.error().what;
+    if (plan_runs()) plan_->hear(run::BusEvent{event, values, wire::kHostId, 0});
+    return "";
 }
 
 // The plan first: what its code says as it ends is in front of what brings the nodes to rest.
@@ -89,6 +95,7 @@ void RobotCommands::stop(session::NodeCommands::Stopped done) {
 
 void RobotCommands::start(Done done) {
     is_stopped_ = false;
+    if (paused()) return go_on(std::move(done));
     nodes_.start([this, done = std::move(done)](const std::string& why) {
         if (!why.empty()) return done(why);
         if (plan_ == nullptr || plan_runs()) return done("");
@@ -97,13 +104,26 @@ void RobotCommands::start(Done done) {
     });
 }
 
+// Its plan first: what it would still tell a node that is paused is lost.
 void RobotCommands::pause(Done done) {
-    if (plan_runs()) {
-        return done(
-            "its plan follows the clock of its world and cannot be paused alone; stop the "
-            "robot, or serve it (`vagus serve --fleet`)");
-    }
+    if (paused()) return done("");
+    const bool has_plan = plan_runs();
+    if (has_plan) plan_->pause(robot_.session->now());
+    if (has_plan && !nodes_.any_runs()) return done("");
     nodes_.pause(safe_stop(), std::move(done));
+}
+
+void RobotCommands::go_on(Done done) {
+    if (!paused()) return done("it is not paused");
+    if (plan_runs()) plan_->go_on(robot_.session->now());
+    if (!nodes_.paused()) return done("");
+    nodes_.go_on(std::move(done));
+}
+
+void RobotCommands::raise(const fleet::Command& command, const Done& done) {
+    if (!plan_runs()) return done("no plan runs");
+    const Status raised = plan_->raise(command.supervisor, command.event);
+    done(raised.ok() ? "" : raised.error().what);
 }
 
 void RobotCommands::set(const fleet::Command& command, Done done) {
@@ -148,15 +168,17 @@ fleet::Shown RobotCommands::shown() const {
         if (view != nullptr && !view->connected) add(node.name + " is away");
         if (!node.fault.empty()) add(node.name + ": " + in_project(robot_, node.fault));
         const bool running = node.has_script && node.state == debug::ProgramState::Running;
-        if (running && !node.killed.empty())
+        const std::string endless = running ? robot_.session->endless(node.id) : "";
+        if (!endless.empty()) {
+            add(node.name + ": " + in_project(robot_, endless));
+        } else if (running && !node.killed.empty()) {
             add(node.name + ": " + in_project(robot_, node.killed));
+        }
         runs = runs || running;
     }
     if (!plan_error_.empty()) add("its plan ended in an error: " + plan_error_);
     if (plan_runs()) shown.actor = actor_;
-    const char* const does = nodes_.paused()       ? "paused"
-                             : runs || plan_runs() ? "running"
-                                                   : "stopped";
+    const char* const does = paused() ? "paused" : runs || plan_runs() ? "running" : "stopped";
     shown.state = shown.problems.empty() ? does : "fault";
     return shown;
 }

@@ -63,7 +63,11 @@ public:
     void begin_again() { nodes_.begin_again(); }
 
 private:
+    std::string emit(const std::string& event, const std::vector<int16_t>& values);
     void pause(Done done);
+    void go_on(Done done);
+    void raise(const fleet::Command& command, const Done& done);
+    bool paused() const { return nodes_.paused() || (plan_runs() && plan_->paused()); }
     void set(const fleet::Command& command, Done done);
     const session::SafeStop& safe_stop() const {
         return own_safe_ ? *own_safe_ : session::shipped_safe_stop();

@@ -52,11 +52,12 @@ Status RobotPlan::begin(uint64_t seed, const std::vector<debug::Event>& before, 
     ended_.reset();
     begun_ = {};
     began_at_ = at;
+    paused_at_.reset();
     options_.seed = seed;
-    options_.on_trace = [at, line = std::move(told.line)](const plan::TraceEvent& event) {
-        if (at == Time{}) return line(event);
+    options_.on_trace = [this, line = std::move(told.line)](const plan::TraceEvent& event) {
+        if (began_at_ == Time{}) return line(event);
         plan::TraceEvent later = event;
-        later.at += at;
+        later.at += began_at_;
         line(later);
     };
     options_.passes_over = std::move(told.passes_over);
@@ -80,16 +81,31 @@ Status RobotPlan::join(toolbox::Fleet* fleet) {
 void RobotPlan::hear(const debug::Event& event) {
     if (!ears_) return;
     auto one = ears_->hear(event);  // also of a plan that is over: it may begin again
-    if (one && !over()) heard_.push_back(std::move(*one));
+    if (one) hear(std::move(*one));
 }
 
 void RobotPlan::hear(run::BusEvent event) {
-    if (!over()) heard_.push_back(std::move(event));
+    const bool full = paused_at_ && heard_.size() >= run::kHeldEventsMax;
+    if (!over() && !full) heard_.push_back(std::move(event));
 }
 
 void RobotPlan::step() {
     run_->step();
     if (run_->over()) ended_ = run_->finish();
+}
+
+void RobotPlan::pause(Time at) {
+    if (!paused_at_ && !over()) paused_at_ = at;
+}
+
+void RobotPlan::go_on(Time at) {
+    if (paused_at_) began_at_ += at - *paused_at_;
+    paused_at_.reset();
+}
+
+Status RobotPlan::raise(const std::string& supervisor, const std::string& event) {
+    if (over()) return Error{Code::Unavailable, "no plan runs"};
+    return run_->do_as_asked(run::RaiseEvent{supervisor, event});
 }
 
 Result<int> RobotPlan::slot_of(const std::string& name) const {
@@ -109,13 +125,16 @@ Result<plan::Value> RobotPlan::variable(const std::string& name) const {
 Status RobotPlan::set(const std::string& name, const plan::Value& value) {
     const int slot = TRY(slot_of(name));
     const auto& variables = plan_->graph().plans.front().variables;
-    run_->set(slot, TRY(plan::convert(value, variables[static_cast<size_t>(slot)].type)));
+    const plan::Value fits = TRY(plan::convert(value, variables[static_cast<size_t>(slot)].type));
+    if (paused_at_) return run_->do_as_asked(run::SetVariable{0, name, fits});
+    run_->set(slot, fits);
     return Status::done();
 }
 
 // As it ends the robot is not told to move again.
 void RobotPlan::abort() {
     if (over()) return;
+    go_on(robot_.session->now());
     only_ = session::stop_events(library_.templates());
     run_->abort();
 }

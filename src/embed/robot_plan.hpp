@@ -64,8 +64,20 @@ public:
     bool over() const { return ended_.has_value() || !run_; }
     // Of the world.
     Time now() const { return began_at_ + run_->now(); }
+    // It has something to do at that time of the world, or before.
+    bool is_due(Time at) const { return !over() && !paused_at_ && now() <= at; }
     void step();
+    // Goes on by itself if it is paused, to its end.
     void abort();
+
+    // From that time of the world on it does nothing, its clock stops, and events wait for it, at
+    // most run::kHeldEventsMax.
+    void pause(Time at);
+    void go_on(Time at);
+    bool paused() const { return paused_at_.has_value(); }
+    // As if a supervisor, which must watch now, had raised the event. The Error names those that
+    // do.
+    Status raise(const std::string& supervisor, const std::string& event);
     // From now on what is random in its code is drawn from that seed.
     void reseed(uint64_t seed) {
         if (!over()) run_->reseed(seed);
@@ -102,8 +114,9 @@ private:
     std::optional<run::Ended> ended_;
     std::optional<std::set<std::string>> only_;  // what goes out once it is being stopped
     std::vector<run::BusEvent> heard_;
-    Time began_at_{};  // its own time 0
-    Time begun_{};     // of its own time, the last instant
+    Time began_at_{};                // its own time 0, later by as long as it was paused
+    Time begun_{};                   // of its own time, the last instant
+    std::optional<Time> paused_at_;  // of the world
 };
 
 }  // namespace vagus::embed

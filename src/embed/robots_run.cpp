@@ -248,7 +248,7 @@ void RobotsRun::instant() {
     for (size_t i = 0; i < plans_.size(); ++i) hear(i, at);
     if (fleet_) fleet_->pass(at);
     for (const auto& plan : plans_) {
-        while (plan && !plan->over() && plan->now() <= at) plan->step();
+        while (plan && plan->is_due(at)) plan->step();
     }
     buses_->end_instant();
 }
@@ -257,7 +257,7 @@ void RobotsRun::instant() {
 void RobotsRun::run_plans_before(Time at) {
     std::vector<RobotPlan*> early;
     for (const auto& plan : plans_) {
-        if (plan && !plan->over() && plan->now() < at) early.push_back(plan.get());
+        if (plan && plan->is_due(at) && plan->now() < at) early.push_back(plan.get());
     }
     while (!early.empty()) {
         const auto first =

@@ -222,7 +222,8 @@ void PastBus::apply(const Item& item, std::vector<run::BusEvent>& heard) {
     } else if (std::holds_alternative<Aborted>(item.what)) {
         run_->abort();
     } else if (const auto* const asked = std::get_if<run::Request>(&item.what)) {
-        run_->do_as_asked(*asked);  // what only paused it is in the times of all others
+        // What only paused it is in the times of all others.
+        (void)run_->do_as_asked(*asked).ok();
     }
 }
 

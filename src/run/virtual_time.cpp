@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "run/code_source.hpp"
-#include "run/debug_view.hpp"
 #include "run/debugger.hpp"
 #include "run/heard_events.hpp"
 #include "run/kept_events.hpp"
@@ -562,23 +561,6 @@ bool VirtualTime::pause_comes_first(Time next) const {
 
 void VirtualTime::fail(std::string_view why) {
     machine_.fail_run(why, now_);
-    obey();
-}
-
-void VirtualTime::do_as_asked(const Request& request) {
-    if (machine_.depth() == 0 || over()) return;
-    if (const auto* const set = std::get_if<SetVariable>(&request)) {
-        const Result<int> slot = find_variable(machine_, set->level, set->name);
-        if (slot.ok()) {
-            (void)machine_.write_outside(set->level, slot.value(), set->value, now_).ok();
-        }
-    } else if (const auto* const raise = std::get_if<RaiseEvent>(&request)) {
-        const Result<Raised> raised =
-            find_raised(machine_, raise->supervisor, raise->event, raise->outputs);
-        if (raised.ok()) machine_.raise(raised.value().watch, raised.value().given, now_);
-    } else if (std::holds_alternative<Abort>(request)) {
-        machine_.abort(now_);
-    }
     obey();
 }
 

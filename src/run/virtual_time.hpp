@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/result.hpp"
 #include "base/rng.hpp"
 #include "plan/machine.hpp"
 #include "run/code.hpp"
@@ -67,8 +68,8 @@ public:
     // Ends the run as abort() does, but with the result Error, at once.
     void fail(std::string_view why);
     // Does at once what was asked of the debugger of that run: a variable is set, an event raised,
-    // the run ended. What cannot be done here is not done, as all else that is asked.
-    void do_as_asked(const Request& request);
+    // the run ended. The Error says why it is not done; all else that is asked never is.
+    Status do_as_asked(const Request& request);
 
     // From now on what is random in the code of actors is drawn from that seed. As set().
     void reseed(uint64_t seed) { random_ = SplitMix64(seed); }

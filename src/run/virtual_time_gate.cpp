@@ -1,7 +1,8 @@
-// VirtualTime: what a debugger does with events of the bus while it holds the run.
+// VirtualTime: what a debugger does with events of the bus while it holds the run; what it asks.
 #include <iterator>
 #include <utility>
 
+#include "run/debug_view.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
 
@@ -44,6 +45,26 @@ bool VirtualTime::let_go(uint64_t number) {
     auto one = held_.take(number);
     if (one) passing_.push_back(std::move(one->event));
     return one.has_value();
+}
+
+Status VirtualTime::do_as_asked(const Request& request) {
+    if (machine_.depth() == 0 || over()) {
+        return Error{vagus::Code::Unavailable, "no plan runs"};
+    }
+    if (const auto* const set = std::get_if<SetVariable>(&request)) {
+        const int slot = TRY(find_variable(machine_, set->level, set->name));
+        TRY(machine_.write_outside(set->level, slot, set->value, now_));
+    } else if (const auto* const raise = std::get_if<RaiseEvent>(&request)) {
+        const Raised raised =
+            TRY(find_raised(machine_, raise->supervisor, raise->event, raise->outputs));
+        machine_.raise(raised.watch, raised.given, now_);
+    } else if (std::holds_alternative<Abort>(request)) {
+        machine_.abort(now_);
+    } else {
+        return Error{vagus::Code::Refused, "a run in virtual time does not do that by itself"};
+    }
+    obey();
+    return Status::done();
 }
 
 }  // namespace vagus::run

@@ -40,6 +40,7 @@ public:
     void pause(const SafeStop& safe, Done done);
     void go_on(Done done);
     bool paused() const { return paused_; }
+    bool any_runs() const { return !with_state(debug::ProgramState::Running).empty(); }
     void set(const std::string& node, const std::string& name, const std::vector<int16_t>& values,
              Done done);
 

@@ -175,5 +175,17 @@ TEST_F(NodeCommandsTest, WhoWaitsIsAnsweredWhenTheWorldBeginsAgain) {
     EXPECT_EQ(report_->front().state, StopNode::State::Silent);
 }
 
+// At the new start it is plugged in, and gets its script as soon as it is heard.
+TEST_F(NodeCommandsTest, ANodeThatWasUnpluggedHasItsScriptWhenTheWorldBeginsAgain) {
+    open(kDrives, unplugged_after(3s));
+    pass(8s);
+    session_->reset();
+    commands_->begin_again();
+    pass(2s);
+    EXPECT_EQ(state(), debug::ProgramState::Running);
+    EXPECT_EQ(value("motor.left.target"), 100);
+    EXPECT_TRUE(session_->without_script().empty());
+}
+
 }  // namespace
 }  // namespace vagus::session

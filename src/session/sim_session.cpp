@@ -273,9 +273,12 @@ void SimSession::begin_again() {
     for (Node& node : nodes_) {
         node.fault.clear();
         node.killed.clear();
-        if (node.script && !node.script->program->bytecode.empty()) {
-            enter(*node.script, Stage::Ready);
-        }
+        if (!node.script || node.script->program->bytecode.empty()) continue;
+        // A node that was unplugged is there again, and has not been heard yet.
+        const debug::NodeView* const view = network_.node(node.id);
+        node.awaited = view == nullptr || !view->connected;
+        enter(*node.script, node.awaited ? Stage::Waiting : Stage::Ready);
+        if (node.awaited) network_.list_nodes();
     }
 }
 
@@ -327,6 +330,9 @@ void SimSession::hear(debug::Event event) {
         hear_fault(*node, *fault);
     } else if (const auto* done = std::get_if<debug::RequestDone>(&event.what)) {
         hear_done(*node, *done);
+    } else if (std::holds_alternative<debug::NodeConfirmed>(event.what)) {
+        const bool waits = std::exchange(node->awaited, false) && node->script;
+        if (waits && node->script->stage == Stage::Waiting) enter(*node->script, Stage::Ready);
     } else if (const auto* changed = std::get_if<debug::StateChanged>(&event.what)) {
         if (!options_.traced) return;
         trace_ += trace_line(now(), "state")

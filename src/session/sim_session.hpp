@@ -52,6 +52,9 @@ constexpr size_t kLoadsAtOnceOverCan = 4;
 constexpr size_t kEventNamesMax = 256;  // different events that are counted; further ones only pass
 constexpr size_t kNotesMax = 10000;     // not taken yet; then the newest are dropped
 constexpr size_t kHeardMax = 10000;     // the same of take_heard()
+// A handler that takes so much simulated time, all of which its node gave it, has no end. Below the
+// 3 s without a fault after which a fleet believes that a version is well.
+constexpr Duration kEndlessAfter = std::chrono::seconds(2);
 // Until all that was loaded runs: in all, and for each node more.
 constexpr Duration kSettleWithin = std::chrono::seconds(5);
 constexpr Duration kSettleWithinMore = std::chrono::milliseconds(20);
@@ -213,6 +216,9 @@ public:
         told_of_heard_.clear();
         told_of_instant_.clear();
     }
+    // What a person needs to know of a handler that has run for kEndlessAfter and not ended: the
+    // place where it was found; empty otherwise.
+    std::string endless(uint16_t node);
     // The place in a file of a line of the program of a node; empty without one.
     std::optional<std::pair<std::string, int>> place_of(uint16_t node, int line) const;
     // What runs on a node; nullptr without a script.
@@ -280,6 +286,8 @@ private:
         std::optional<Assignment> script;
         std::string fault;
         std::string killed = {};
+        std::string endless = {};
+        bool awaited = false;  // as the world began again it was away; it gets its script then
     };
     struct Compiled {  // a script for a kind of node
         std::string path;

@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "debug/lines.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/sim_session.hpp"
+#include "sim/machine.hpp"
 
 namespace vagus::session {
 namespace {
@@ -318,6 +320,25 @@ void SimSession::forget_scripts() {
         node.fault.clear();
         node.killed.clear();
     }
+}
+
+// One sentence for as long as it runs: its place changes all the time.
+std::string SimSession::endless(uint16_t id) {
+    constexpr uint64_t kInstructions =
+        uint64_t{sim::kInstructionsPerMillisecond} * (kEndlessAfter / sim::kNodeStep);
+    Node* const node = find(debug::NodeId{id});
+    if (node == nullptr) return "";
+    const auto handler = world_->running_handler(node->robot, id);
+    if (!handler || handler->instructions < kInstructions) {
+        node->endless.clear();
+    } else if (node->endless.empty()) {
+        const aesl::Program* const its = program(id);
+        const auto place = place_of(id, its != nullptr ? debug::line_of(*its, handler->pc) : 0);
+        node->endless =
+            (place ? place->first + ":" + std::to_string(place->second) : label(*node)) + ": " +
+            debug::kEndlessText;
+    }
+    return node->endless;
 }
 
 void SimSession::send(Node& node) {

@@ -59,6 +59,7 @@ void Machine::restart() {
     origins_.clear();
     cause_ = 0;
     used_ = 0;
+    executed_ = 0;
     heard_is_old_ = true;
 }
 
@@ -80,7 +81,9 @@ void Machine::switch_on_again(const std::vector<int16_t>& variables) {
 
 void Machine::notify(node::Node& node, vm::Notice notice) {
     of(node).bytecode_.notice(notice);
-    if (notice == vm::Notice::Reset) of(node).break_off();
+    if (notice != vm::Notice::Reset) return;
+    of(node).executed_ = 0;
+    of(node).break_off();
 }
 
 // A script that was stopped by what it did says so itself, also while it is stepped.
@@ -119,6 +122,7 @@ void Machine::receive(const wire::Frame& frame, uint32_t number) {
         witness_->began_by_frame(witnessed_, node_.vm.pc, number);
     }
     used_ = 0;
+    if (vm::event_address(node_.vm, frame.type) != 0) executed_ = 0;
     run();
 }
 
@@ -157,6 +161,7 @@ bool Machine::start_pending() {
         witness_->began_by_itself(witnessed_, node_.vm.pc, event);
     }
     used_ = 0;
+    if (hears(event)) executed_ = 0;
     return true;
 }
 
@@ -175,6 +180,7 @@ void Machine::run() {
                                   : fastvm::run(node_.vm, bytecode_, static_cast<uint16_t>(limit));
         budget_ = static_cast<uint16_t>(budget_ - done);
         used_ += done;
+        executed_ += done;
         if (done == 0) return;
     }
     pending_.clear();  // paused inside an event: others are dropped (docs/spec, 3.6)

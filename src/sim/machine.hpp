@@ -99,6 +99,8 @@ public:
         witnessed_ = as;
     }
     const vm::Vm& vm() const { return node_.vm; }
+    // How many instructions the handler that runs has executed; 0: it waits for its next event.
+    uint64_t instructions_of_handler() const { return vm::is_active(node_.vm) ? executed_ : 0; }
     // Registers, stack, variables and what waits, as bytes: equal states give equal bytes.
     std::string state() const;
 
@@ -136,7 +138,8 @@ private:
     WitnessedNode witnessed_;
     uint16_t budget_ = 0;
     uint16_t frames_left_ = 0;
-    uint32_t used_ = 0;  // instructions of the handler that runs
+    uint32_t used_ = 0;      // instructions of the handler that runs
+    uint64_t executed_ = 0;  // the same, also of what runs after a reset
 };
 
 }  // namespace vagus::sim

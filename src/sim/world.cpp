@@ -487,6 +487,14 @@ std::span<const int16_t> World::variables(RobotId robot, uint16_t node) const {
                  : std::span<const int16_t>();
 }
 
+std::optional<RunningHandler> World::running_handler(RobotId robot, uint16_t node) const {
+    const auto index = index_of(insides_->definition, robot);
+    if (!index) return std::nullopt;
+    const Machine* const machine = insides_->turns.machine_of(*index, node, insides_->now);
+    if (machine == nullptr || machine->instructions_of_handler() == 0) return std::nullopt;
+    return RunningHandler{machine->instructions_of_handler(), machine->vm().pc};
+}
+
 std::span<const int16_t> World::variables_of(uint16_t node) const {
     return insides_->turns.variables_of(node, insides_->now);
 }

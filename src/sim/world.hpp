@@ -146,6 +146,12 @@ struct BusLoad {
     std::vector<NodeLoad> nodes;
 };
 
+// What a node executes: so many instructions since its handler began, and where it is.
+struct RunningHandler {
+    uint64_t instructions = 0;
+    uint16_t pc = 0;
+};
+
 // What is done to a world from outside, as by a hand from above: what World::act() does, and
 // those below that are named as its kinds.
 struct Act {
@@ -243,6 +249,8 @@ public:
     std::span<const int16_t> variables(RobotId robot) const;
     std::span<const int16_t> variables(RobotId robot, uint16_t node) const;
     std::span<const int16_t> variables_of(uint16_t node) const;
+    // What one of the robot's nodes executes now. None: it waits for its next event.
+    std::optional<RunningHandler> running_handler(RobotId robot, uint16_t node) const;
 
     // ---- Acting, as a hand from above. Fails with NotFound, Limit, or BadInput. ----
     Result<ObjectId> add(const ObjectDefinition& object);

@@ -286,6 +286,7 @@ void Control::receive(const wire::ExecutionStateChanged& state) {
     flags_ = state.flags;
     view_.state = state_of(state.flags);
     view_.at = place_of(state.pc);
+    view_.in_event = (state.flags & wire::kFlagActive) != 0;
     if (view_.state == ProgramState::Running) resume_ = Resume::No;
     if (resume_ == Resume::Stepping) {
         resume_ = Resume::Running;

@@ -61,6 +61,8 @@ public:
         return std::nullopt;
     }
     std::vector<const NodeView*> views() const;
+    std::vector<std::pair<NodeId, std::string>> left() const;
+    void acknowledge_left();
     Error unknown(NodeId id) const;
 
     Outbox out;
@@ -90,8 +92,9 @@ private:
     struct Farewell {
         std::string name;
         std::vector<LineBreakpoint> breakpoints;
+        bool known_of = false;  // a person acknowledged it
     };
-    std::map<NodeId, Farewell> farewells_;
+    std::map<NodeId, Farewell> farewells_;  // until they are described again
     Time next_list_{};
     size_t description_bytes_ = 0;
     bool told_too_many_ = false;
@@ -227,9 +230,7 @@ void Network::Impl::forget(NodeId id) {
     if (peer_left == nullptr) return;
     peer_left->leave("has left the network");
     const NodeView& view = peer_left->view();
-    if (!view.breakpoints.empty() && farewells_.size() < kNodesMax) {
-        farewells_[id] = {view.name, view.breakpoints};
-    }
+    if (farewells_.size() < kNodesMax) farewells_[id] = {view.name, view.breakpoints};
     description_bytes_ -= peer_left->description_bytes();
     peers.erase(id);
     presences.forget(id);
@@ -311,6 +312,18 @@ std::vector<const NodeView*> Network::Impl::views() const {
     return all;
 }
 
+std::vector<std::pair<NodeId, std::string>> Network::Impl::left() const {
+    std::vector<std::pair<NodeId, std::string>> left;
+    for (const auto& [id, farewell] : farewells_) {
+        if (peer(id) == nullptr && !farewell.known_of) left.emplace_back(id, farewell.name);
+    }
+    return left;
+}
+
+void Network::Impl::acknowledge_left() {
+    for (auto& [id, farewell] : farewells_) farewell.known_of = true;
+}
+
 Error Network::Impl::unknown(NodeId id) const {
     const auto found = find_node(views(), std::to_string(id));
     if (!found.ok()) return found.error();
@@ -347,6 +360,13 @@ std::vector<NodeId> Network::nodes() const {
     std::vector<NodeId> ids;
     for (const auto& [id, known] : impl_->peers) ids.push_back(id);
     return ids;
+}
+
+std::vector<std::pair<NodeId, std::string>> Network::left() const {
+    return impl_->left();
+}
+void Network::acknowledge_left() {
+    impl_->acknowledge_left();
 }
 
 const NodeView* Network::node(NodeId id) const {

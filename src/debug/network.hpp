@@ -28,6 +28,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "aesl/compile.hpp"
@@ -82,6 +83,7 @@ struct NodeView {
     std::string other_name;  // of the other one, if it has another
     ProgramState state = ProgramState::Unknown;
     CodePlace at;                        // as the node told last
+    bool in_event = false;               // the same: it works on an event
     Time part_at{};                      // when a part of its description came last
     SharedValue<aesl::Target> target;    // empty until described; equal nodes have one
     SharedValue<aesl::Program> program;  // what this host loaded or was told that the node has
@@ -130,6 +132,11 @@ public:
     std::vector<NodeId> nodes() const;
     // Borrowed until the next call that is not const; nullptr if there is no such node.
     const NodeView* node(NodeId id) const;
+    // Those that said good-bye and have not come back, by number; the name of one that has not told
+    // it is empty. Nobody knows what they do.
+    std::vector<std::pair<NodeId, std::string>> left() const;
+    // A person knows of these: they are told no more.
+    void acknowledge_left();
     // A described node by its number or name. The Error names the nodes there are, near names
     // first.
     Result<NodeId> find(std::string_view name_or_id) const;

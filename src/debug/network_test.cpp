@@ -271,6 +271,23 @@ TEST(Presence, ANodeThatSaysGoodbyeIsForgotten) {
     EXPECT_EQ(bus.sent(), Dumps{"04 00 00 00 10 a0 01 00 05 00"});
 }
 
+TEST(Presence, WhoSaidGoodbyeIsNamedUntilItIsBackOrAPersonKnowsOfIt) {
+    using Left = std::vector<std::pair<NodeId, std::string>>;
+    ScriptedBus bus;
+    bus.meet_robot(1);
+    EXPECT_EQ(bus.network.left(), Left{});
+    bus.node_says("00 00 01 00 04 90");
+    EXPECT_EQ(bus.network.left(), (Left{{1, "robot"}}));
+    bus.meet_robot(1);
+    EXPECT_EQ(bus.network.left(), Left{});
+    bus.node_says("00 00 01 00 04 90");
+    bus.network.acknowledge_left();
+    EXPECT_EQ(bus.network.left(), Left{});
+    bus.meet_robot(1);
+    bus.node_says("00 00 01 00 04 90");
+    EXPECT_EQ(bus.network.left(), (Left{{1, "robot"}}));
+}
+
 TEST(Limits, OneNodeTooManyIsIgnoredAndToldOnce) {
     ScriptedBus bus;
     wire::NodePresent present{};

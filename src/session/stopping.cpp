@@ -35,14 +35,19 @@ std::string describe(const std::vector<StopNode>& nodes) {
     return text;
 }
 
+std::vector<debug::NodeId> all_nodes(const debug::Network& network) {
+    std::vector<debug::NodeId> nodes = network.nodes();
+    for (const auto& [id, name] : network.left()) nodes.push_back(id);
+    return nodes;
+}
+
 void Stopping::begin(debug::Network& network, const SafeStop& safe, How how, Time now) {
+    // What is away gets its Stop all the same: it may hear.
+    if (how == How::Stop) return begin(network, safe, Manner{}, now, all_nodes(network));
     std::vector<debug::NodeId> nodes;
     for (const debug::NodeId id : network.nodes()) {
         const debug::NodeView& view = *network.node(id);
-        // What is away gets its Stop all the same: it may hear.
-        const bool away = !view.connected && how != How::Stop;
-        const bool named = how == How::Stop || safe.contains(view.name);
-        if (!away && named) nodes.push_back(id);
+        if (view.connected && safe.contains(view.name)) nodes.push_back(id);
     }
     begin(network, safe, Manner{.how = how}, now, nodes);
 }
@@ -55,11 +60,16 @@ void Stopping::begin(debug::Network& network, const SafeStop& safe, const Manner
     manner_ = manner;
     now_ = now;
     nodes_.clear();
+    const std::vector<std::pair<debug::NodeId, std::string>> left = network.left();
+    const std::map<debug::NodeId, std::string> names(left.begin(), left.end());
     for (const debug::NodeId id : nodes) {
         Node& node = nodes_[id];
         const debug::NodeView* view = network.node(id);
+        const auto known = names.find(id);
         if (view) node.name = view->name;
-        if (view && !view->connected && manner.link) node.state = State::Gone;
+        if (known != names.end()) node.name = known->second;
+        const bool away = (view && !view->connected) || known != names.end();
+        if (away && manner.link) node.state = State::Gone;
         if (manner.how == How::Stop) node.stop = network.stop_now(id);
         node.halted = manner.how != How::Stop;
         node.next = now + kStopAgain;

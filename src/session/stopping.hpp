@@ -32,6 +32,10 @@ constexpr Duration kRestHolds = std::chrono::milliseconds(150);
 // "at rest: thymio-II (2), drive (3); did not answer: bumper (4)"; empty without nodes.
 std::string describe(const std::vector<StopNode>& nodes);
 
+// Who is to be stopped with a robot: every node that the network has met, also one that is away or
+// said good-bye, for it may still move.
+std::vector<debug::NodeId> all_nodes(const debug::Network& network);
+
 class Stopping {
 public:
     enum class How {
@@ -54,7 +58,8 @@ public:
         std::vector<debug::NodeId> strangers = {};
     };
 
-    // The network and the safe stop are borrowed until the next begin().
+    // The network and the safe stop are borrowed until the next begin(). With Stop also nodes that
+    // said good-bye: they may still move.
     void begin(debug::Network& network, const SafeStop& safe, How how, Time now);
     // Only these nodes.
     void begin(debug::Network& network, const SafeStop& safe, const Manner& manner, Time now,

@@ -85,6 +85,7 @@ FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptio
       link_(std::move(link), talk_.wake),
       now_(now) {
     if (project_.healthy) condition_words_ = words_of(project_.healthy->condition);
+    bench_.look_for_endless_loops(true);
     tell_variables();
 }
 
@@ -136,6 +137,7 @@ void FleetRobot::let_plans_ask(talk::MemberOf member) {
 }
 
 FleetRobot::~FleetRobot() {
+    bench_.look_for_endless_loops(false);
     bench_.on_tells({}, {});
     bench_.join_fleet({}, {});
     member_.leave();

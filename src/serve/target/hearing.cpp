@@ -42,6 +42,8 @@ void Target::hear(const debug::Event& event, const debug::StateChanged& state) {
     const bool runs = state.state == debug::ProgramState::Running;
     if (runs && stopping_.state_of(event.node) == StopNode::State::Stopped) quiet_ = false;
     note_held(event.node, state);
+    known.busy_looks = 0;
+    known.endless = false;
     if (state.state == debug::ProgramState::Running) {
         known.why.clear();
         known.stopped = false;
@@ -125,6 +127,7 @@ void Target::hear(const debug::Event& event) {
     const auto* what = &event.what;
     if (const auto* done = std::get_if<debug::RequestDone>(what)) {
         if (known_[event.node].braking == done->request) known_[event.node].braking.reset();
+        if (known_[event.node].look == done->request) note_look(event.node, !done->error);
         hear(*done);
     } else if (const auto* described = std::get_if<debug::NodeDescribed>(what)) {
         hear(event, *described);

@@ -52,7 +52,7 @@ void Stopping::begin(debug::Network& network, const session::SafeStop& safe,
     nodes_.read_moving_every(session::kMovesReadEvery);
     const session::Stopping::Manner manner{
         .until = session::Stopping::Until::Forgotten, .link = link, .strangers = heard};
-    nodes_.begin(network, safe_, manner, now, network.nodes());
+    nodes_.begin(network, safe_, manner, now, session::all_nodes(network));
     answer();
 }
 

@@ -43,7 +43,7 @@ public:
     Stopping(const Stopping&) = delete;  // its safe stop is borrowed within
     Stopping& operator=(const Stopping&) = delete;
 
-    // Nodes beyond those that the network knows are told to stop, too; of them nothing is heard.
+    // Nodes beyond those that the network has met are told to stop, too; of them nothing is heard.
     // `done` gets the report once, at the latest after kStopWithin. `link`: somebody is there to
     // be talked to; otherwise nobody is gone, but silent.
     void begin(debug::Network& network, const session::SafeStop& safe,

@@ -99,6 +99,47 @@ TEST_F(TargetTest, ASilentNodeThatAPersonKnowsOfIsAskedNoMore) {
     EXPECT_FALSE(node_document(kDrive).contains("stop"));
 }
 
+// Nobody knows whether it is at rest; it is stopped when it is back.
+TEST_F(TargetTest, ANodeThatSaidGoodbyeIsNamedAndToldToStopUntilItIsBack) {
+    run();
+    wire::Frame goodbye;
+    ASSERT_EQ(wire::encode_message(wire::Disconnected{}, kDrive, goodbye), wire::Error::None);
+    bus.mute(kDrive);
+    bus.others_say(goodbye);
+    pass(20ms);
+    EXPECT_THAT(target.problems(), Contains("drive is away"));
+    stop();
+    pass(100ms);
+    ASSERT_TRUE(report.has_value());
+    EXPECT_EQ(state_of(kDrive), State::Gone);
+    EXPECT_EQ(not_stopped(answer_of(*report)), std::vector<std::string>{"drive"});
+    const size_t before = count_sent(kDrive, Type::Stop);
+    pass(1s);
+    EXPECT_GT(count_sent(kDrive, Type::Stop), before);
+    bus.mute(kDrive, false);
+    pass(3s);
+    EXPECT_EQ(node_document(kDrive)["stop"], "stopped");
+    EXPECT_TRUE(not_stopped(answer_of(target.stop_report())).empty());
+}
+
+// Somebody has taken it off the robot.
+TEST_F(TargetTest, ANodeThatSaidGoodbyeIsNamedNoMoreOnceAPersonKnowsOfIt) {
+    run();
+    wire::Frame goodbye;
+    ASSERT_EQ(wire::encode_message(wire::Disconnected{}, kDrive, goodbye), wire::Error::None);
+    bus.mute(kDrive);
+    bus.others_say(goodbye);
+    pass(20ms);
+    stop();
+    pass(100ms);
+    target.acknowledge_stop();
+    report.reset();
+    stop();
+    pass(100ms);
+    ASSERT_TRUE(report.has_value());
+    EXPECT_TRUE(not_stopped(answer_of(*report)).empty());
+}
+
 // It was seen, and has not told what it is.
 TEST_F(TargetTest, ANodeWithoutADescriptionIsToldToStop) {
     run();

@@ -151,7 +151,13 @@ std::vector<uint16_t> Target::without_script() const {
 
 std::string Target::name_of(uint16_t node) const {
     const debug::NodeView* view = network_ ? network_->node(node) : nullptr;
-    return view && !view->name.empty() ? view->name : fmt::format("node {}", node);
+    if (view && !view->name.empty()) return view->name;
+    if (network_ && !view) {
+        for (const auto& [id, name] : network_->left()) {
+            if (id == node && !name.empty()) return name;
+        }
+    }
+    return fmt::format("node {}", node);
 }
 
 std::string Target::source_of(uint16_t node) const {
@@ -410,6 +416,7 @@ void Target::stop_all(std::function<void(const StopReport&)> done) {
 void Target::acknowledge_stop() {
     stopping_.acknowledge();
     resting_.acknowledge();
+    if (network_) network_->acknowledge_left();
     desk_.topics().touch("robot");
 }
 
@@ -463,6 +470,7 @@ void Target::tick(Time now) {
     end_leases();
     load_lost_programs();
     finish_batches();
+    look_at_handlers(now);
     send_frames();
     count_rates(now);
     due_ = next_tick();
@@ -482,7 +490,8 @@ Time Target::next_tick() const {
     if (finished || more_) return now_;
     if (!network_) return Time::max();
     return std::min({network_->next_tick(), stopping_.next_tick(), resting_.next_tick(),
-                     rested_ ? rest_until_ : Time::max(), rates_at_ + kRatesEvery});
+                     rested_ ? rest_until_ : Time::max(),
+                     looks_for_endless_ ? look_at_ : Time::max(), rates_at_ + kRatesEvery});
 }
 
 void Target::count_rates(Time now) {

@@ -66,6 +66,12 @@ struct TargetHints {
     };
 };
 
+// Whether a node works on an event is asked so often, and if it always did so many times in a row,
+// there is no end. One that does so for 80 % of its time is taken for endless for a moment about
+// once in two hours, one that does for half of it never.
+constexpr Duration kLookEvery = std::chrono::milliseconds(200);
+constexpr int kEndlessLooks = 40;  // 8 s
+
 // Since the target was connected.
 struct TargetCounts {
     uint64_t events = 0, lost = 0;  // events of nodes; frames that did not fit somewhere
@@ -112,6 +118,8 @@ public:
     void set_hints(TargetHints hints) { hints_ = std::move(hints); }
     void on_told(TargetTold told) { told_ = std::move(told); }
     void on_tells(TargetTells tells) { tells_ = std::move(tells); }
+    // Nodes are asked again and again whether they still work on the same event: endless.cpp.
+    void look_for_endless_loops(bool looks) { looks_for_endless_ = looks; }
     // They are asked for from now on, whether a page looks at them or not.
     void tell_variables(std::vector<fleet::Tells> variables) {
         told_variables_ = std::move(variables);
@@ -229,6 +237,9 @@ private:
         bool held = false;                        // somebody debugs it
         std::optional<debug::RequestId> braking;  // it is being paused for another
         uint64_t events = 0;
+        std::optional<debug::RequestId> look;  // the question whether it works on an event
+        int busy_looks = 0;                    // in a row at which it did
+        bool endless = false;                  // that is what its `fault` says
     };
     // One command for several nodes.
     struct Batch {
@@ -329,6 +340,8 @@ private:
     static std::map<std::string, std::pair<uint32_t, uint32_t>> variables_of(
         const debug::NodeView& view);
     void count_rates(Time now);
+    void look_at_handlers(Time now);
+    void note_look(uint16_t node, bool answered);
     double time() const { return heard_t_ ? *heard_t_ : hints_.time(); }
     void restore(uint16_t node);
     // ---- placing.cpp: breakpoints on the nodes ----
@@ -365,10 +378,12 @@ private:
     Connection connection_ = Connection::Connecting;
     Duration silence_{};  // since something was heard, of a link with nodes
     uint64_t heard_ = 0;  // frames by then
-    bool mute_ = false;   // for too long
-    bool more_ = false;   // frames wait that were not taken
-    Time due_{};          // when this asked to be called
-    Time looked_at_{};    // at the link
+    bool looks_for_endless_ = false;
+    Time look_at_{};     // the next time
+    bool mute_ = false;  // for too long
+    bool more_ = false;  // frames wait that were not taken
+    Time due_{};         // when this asked to be called
+    Time looked_at_{};   // at the link
     session::SafeStop safe_stop_;
     Stopping stopping_;
     session::Stopping resting_;  // while scripts run on

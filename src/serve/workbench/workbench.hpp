@@ -111,6 +111,8 @@ public:
     // What run.start and stop do. `done` gets why it does not run, or nothing.
     void start_run(std::function<void(const std::string& why)> done);
     void stop_run(const life::Cause& cause, std::function<void()> done);
+    // Also where no further event comes that would make the node tell of it.
+    void look_for_endless_loops(bool looks) { target_.look_for_endless_loops(looks); }
     // What a node of that name is: the one that is there, or one that is known.
     aesl::Target target_of(const std::string& name, uint16_t id) const;
     // The same for another thread: of the nodes that are there now.

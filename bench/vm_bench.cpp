@@ -110,6 +110,28 @@ onevent prox
 	motor.right.target = 300 - turn + (lost & 3)
 )";
 
+// Five instructions: what a handler costs that does next to nothing.
+constexpr const char* kShort = R"(
+var n
+onevent prox
+	n = prox.ground.delta[0] + 1
+)";
+
+constexpr const char* kNatives = R"(
+var values[7] var sorted[7] var sum var low var high var mean var turn var i
+onevent prox
+	call math.copy(values, prox.horizontal)
+	for i in 1:4 do
+		call math.stat(values, low, high, mean)
+		call math.muldiv(turn, mean, i, 7)
+		call math.dot(sum, values, prox.horizontal, 3)
+		call math.copy(sorted, values)
+		call math.sort(sorted)
+		call math.max(high, sorted[6], turn)
+		call math.argbounds(values, low, high)
+	end
+)";
+
 Work explore() {
     const std::string path = test::examples("thymio/explore.aesl");
     const Result<std::string> text = read_file(path);
@@ -126,7 +148,9 @@ std::vector<Work> works() {
             {"primes", kPrimes, common, {"prox"}},
             {"sort", kSort, common, {"prox"}},
             {"collatz", kCollatz, common, {"prox"}},
-            {"follow", kFollow, common, {"prox"}}};
+            {"follow", kFollow, common, {"prox"}},
+            {"short", kShort, common, {"prox"}},
+            {"natives", kNatives, common, {"prox"}}};
 }
 
 // A program on its machines, and what is done to them.

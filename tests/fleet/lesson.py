@@ -18,6 +18,8 @@ from rollout import Versions, words_of_deploy  # noqa: E402
 EXERCISE = "var edition = {edition}\n" + SCRIPT.replace("\nonevent", "motor.left.target = 100\nmotor.right.target = 100\n\nonevent", 1)
 # The compiler cannot know that nothing makes `go` another value.
 ENDLESS = EXERCISE.replace("onevent timer0\n", "onevent timer0\n\twhile go == 0 do\n\t\tgo = 0\n\tend\n", 1)
+# It begins before the first event, and none has a handler that would end it.
+SILENT = "var go = 0\nvar heard = 0\nvar last = 0\n\nwhile go == 0 do\n\tgo = 0\nend\n"
 
 
 class Lesson(Versions):
@@ -99,8 +101,7 @@ class Commands(Lesson):
         self.assertRegex(self.refused("tell", "s1", "thymio-II.nothing"), r"s1: not done: .*nothing")
         self.assertIn("s1: not done: no plan runs; name the node", self.refused("set", "s1", "n", 1))
         self.assertRegex(self.refused("identify", "s1"), r"s1: not done: .*identify")
-        self.assertIn("s1: not done: raise is not possible for a robot of a world; serve it",
-                      self.refused("raise", "s1", "watch", "Seen"))
+        self.assertIn("s1: not done: no plan runs", self.refused("raise", "s1", "watch", "Seen"))
 
 
 class NextExercise(Lesson):
@@ -146,7 +147,11 @@ class NextExercise(Lesson):
         done = self.deploy("s1", "--project", two)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("1 of 1 robots: well", done.stdout)
-        self.assertIn("cannot be paused alone", self.refused("pause", "s1"))
+        self.do("pause", "s1")
+        self.wait_state("s1", "paused")
+        self.assertRegex(self.refused("raise", "s1", "nobody", "Seen"), r"s1: not done: .*nobody")
+        self.do("continue", "s1")
+        self.running("s1")
         self.do("set", "s1", "limit", 3)  # it ends with the round that runs
         self.do("stop", "s1")
         self.wait_state("s1", "stopped")
@@ -180,6 +185,16 @@ class Pupils(Lesson):
         done = self.deploy("all", "--project", loop, "--steps", "1")
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stdout, r"(?s)s1: failed: a fault: thymio-II: .*s2: as it was.*0 of 2 robots: well")
+        self.assertIn("2 of 2 robots: stopped", self.do("stop", "all"))
+
+    def test_one_in_a_loop_that_no_event_ends(self):
+        """Nothing tells of it: a world counts instructions, a robot that serves itself asks its nodes."""
+        self.broker("s1", "r1")
+        self.simulated(self.world(s1=self.exercise("loop", script=SILENT)))
+        self.joined("r1", script=SILENT)
+        for name in ("s1", "r1"):
+            self.wait_state(name, "fault")
+            self.assertRegex(self.do("list", name), rf"{name}: online, fault .*thymio-II.*: .*it may be in an endless loop")
         self.assertIn("2 of 2 robots: stopped", self.do("stop", "all"))
 
     def test_one_that_is_unplugged(self):

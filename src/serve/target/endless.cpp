@@ -14,7 +14,7 @@ namespace vagus::serve {
 
 void Target::look_at_handlers(Time now) {
     if (!looks_for_endless_ || !network_ || now < look_at_) return;
-    look_at_ = now + kLookEvery;
+    look_at_ = now + kHandlerLookEvery;
     for (const debug::NodeId node : network_->nodes()) {
         const debug::NodeView& view = *network_->node(node);
         Known& known = known_[node];

@@ -11,7 +11,7 @@ using testing::IsEmpty;
 using Type = wire::MessageType;
 
 constexpr size_t kOwnVariable = 36;  // the first of the script of bumper
-constexpr Duration kFound = (kEndlessLooks + 5) * kLookEvery;
+constexpr Duration kFound = (kEndlessLooks + 5) * kHandlerLookEvery;
 
 struct EndlessTest : TargetTest {
     // Both nodes get these lines for their tick, and run.
@@ -53,7 +53,7 @@ TEST_F(EndlessTest, ALoopThatEndsAfterAllIsNoFaultAnyMore) {
     pass(kFound);
     ASSERT_EQ(target.problems().size(), 1u);
     bus.node(kBumper).variables()[kOwnVariable] = 1;
-    pass(2 * kLookEvery);
+    pass(2 * kHandlerLookEvery);
     EXPECT_THAT(target.problems(), IsEmpty());
 }
 

@@ -69,7 +69,7 @@ struct TargetHints {
 // Whether a node works on an event is asked so often, and if it always did so many times in a row,
 // there is no end. One that does so for 80 % of its time is taken for endless for a moment about
 // once in two hours, one that does for half of it never.
-constexpr Duration kLookEvery = std::chrono::milliseconds(200);
+constexpr Duration kHandlerLookEvery = std::chrono::milliseconds(200);
 constexpr int kEndlessLooks = 40;  // 8 s
 
 // Since the target was connected.

@@ -117,20 +117,13 @@ uint16_t run(Vm& vm, uint16_t limit) {
 
 // ---- Natives and faults (sections 3.8 and 4.1) ----
 
-uint16_t pop(Vm& vm) {
-    if (vm.depth == 0) {
-        if (is_active(vm)) raise_node_error(vm, kStackEmpty);
-        return 0;
-    }
-    return static_cast<uint16_t>(vm.config->stack[--vm.depth]);
+uint16_t pop_from_empty_stack(Vm& vm) {
+    if (is_active(vm)) raise_node_error(vm, kStackEmpty);
+    return 0;
 }
 
-int16_t* memory(Vm& vm, uint16_t address, uint16_t size) {
-    if (!is_active(vm)) return nullptr;
-    const uint16_t variables_size = vm.config->variables_size;
-    if (address <= variables_size && size <= variables_size - address)
-        return vm.config->variables + address;
-    raise_node_error(vm, kBadAddress);
+int16_t* no_memory(Vm& vm) {
+    if (is_active(vm)) raise_node_error(vm, kBadAddress);
     return nullptr;
 }
 

@@ -157,6 +157,10 @@ uint16_t pop(Vm& vm);
 // the variables, and gives nullptr after any fault of this instruction.
 [[gnu::warn_unused_result]] int16_t* memory(Vm& vm, uint16_t address, uint16_t size);
 
+// Their rare cases.
+uint16_t pop_from_empty_stack(Vm& vm);
+int16_t* no_memory(Vm& vm);
+
 // Faults: the script is stopped (flags become Step), the message is sent with the address of the
 // instruction.
 void raise_division_by_zero(Vm& vm);
@@ -164,6 +168,19 @@ void raise_out_of_bounds(Vm& vm, uint16_t size, uint16_t index);
 // `text`: at most 255 bytes, ends with '\0', in flash on an AVR (VAGUS_FLASH_TEXT). Also for the
 // glue of a node, at any time.
 void raise_node_error(Vm& vm, const char* text);
+
+// A native asks some ten times: on a computer the calls took longer than what is done there.
+inline uint16_t pop(Vm& vm) {
+    if (vm.depth == 0) return pop_from_empty_stack(vm);
+    return static_cast<uint16_t>(vm.config->stack[--vm.depth]);
+}
+
+inline int16_t* memory(Vm& vm, uint16_t address, uint16_t size) {
+    const uint16_t variables_size = vm.config->variables_size;
+    const bool inside = address <= variables_size && size <= variables_size - address;
+    if (!inside || !is_active(vm)) return no_memory(vm);
+    return vm.config->variables + address;
+}
 
 }  // namespace vm
 }  // namespace vagus

@@ -49,8 +49,12 @@ async function breakAndStep(/** @type {Studio} */ studio, /** @type {string} */ 
   await press('F10');
   await seen(page.getByText(`${name} paused at line 5`));
   const n = await page.getByTitle('Change n').innerText();
-  await press('F10', 'F10');
+  // Each pause puts the caret at its line: the keys below come after the last one.
+  await press('F10');
+  await seen(page.getByText(`${name} paused at line 4`));
   await reads(page.getByTitle('Change leds'), n);
+  await press('F10');
+  await seen(page.getByText(`${name} paused at line 5`));
   // Continues: the breakpoint is deleted.
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9', 'F5');
   await seen(mark(/on the robot, running/));

@@ -1,5 +1,4 @@
 import { Background, BackgroundVariant, ReactFlow, ReactFlowProvider } from '@xyflow/react';
-import '@xyflow/react/dist/base.css';
 import { useCallback, useRef, useState } from 'react';
 import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sim/world.hpp"
 
 namespace vagus::serve {
@@ -23,6 +25,12 @@ Result<sim::RobotId> robot_named(sim::World& world, const std::string& name) {
     const auto robot = world.find_robot(name);
     if (!robot) return Error{Code::NotFound, "there is no such robot in the world"};
     return *robot;
+}
+
+Status set_button(sim::World& world, const std::string& robot, const std::string& button,
+                  bool down) {
+    const sim::RobotId id = TRY(robot_named(world, robot));
+    return down ? world.press(id, button) : world.release(id, button);
 }
 
 // The kinds of the two lists have one order.
@@ -97,13 +105,34 @@ Status hand(sim::World& world, const talk::SwitchLight& order) {
     return world.switch_light(sim::ObjectId{order.object}, order.on);
 }
 
-Status hand(sim::World& world, const talk::PressButton& order) {
-    const sim::RobotId id = TRY(robot_named(world, order.robot));
-    return order.down ? world.press(id, order.button) : world.release(id, order.button);
-}
-
 Status hand(sim::World& world, const talk::TapRobot& order) {
     return world.tap(TRY(robot_named(world, order.robot)));
+}
+
+Status Buttons::press(sim::World& world, const talk::PressButton& order) {
+    const auto held = std::ranges::find_if(down_, [&](const Down& one) {
+        return one.robot == order.robot && one.button == order.button;
+    });
+    const bool known = held != down_.end();
+    if (!order.down && known && world.now() < held->since + kPressLasts) {
+        held->let_go = true;
+        return Status::done();
+    }
+    // Pressed again before it was up: two clicks are two.
+    if (order.down && known && held->let_go)
+        (void)set_button(world, held->robot, held->button, false).ok();
+    if (known) down_.erase(held);
+    TRY(set_button(world, order.robot, order.button, order.down));
+    if (order.down) down_.push_back({order.robot, order.button, world.now()});
+    return Status::done();
+}
+
+void Buttons::release_due(sim::World& world) {
+    std::erase_if(down_, [&world](const Down& one) {
+        const bool due = one.let_go && world.now() >= one.since + kPressLasts;
+        if (due) (void)set_button(world, one.robot, one.button, false).ok();
+        return due;
+    });
 }
 
 }  // namespace vagus::serve

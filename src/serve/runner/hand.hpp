@@ -1,7 +1,12 @@
 // The hand from above: what a person moves, puts, takes and presses in a world that is there.
 #pragma once
 
+#include <chrono>
+#include <string>
+#include <vector>
+
 #include "base/result.hpp"
+#include "base/time.hpp"
 #include "serve/talk/orders.hpp"
 
 namespace vagus::sim {
@@ -15,9 +20,31 @@ Status hand(sim::World& world, const talk::MoveRobot& order);
 Status hand(sim::World& world, const talk::MoveObject& order);
 Status hand(sim::World& world, const talk::TakeObject& order);
 Status hand(sim::World& world, const talk::SwitchLight& order);
-Status hand(sim::World& world, const talk::PressButton& order);
 Status hand(sim::World& world, const talk::TapRobot& order);
 // Gives the number of what was put.
 Result<uint32_t> hand(sim::World& world, const talk::PutObject& order);
+
+// A Thymio looks at its buttons 20 times a second.
+constexpr Duration kPressLasts = std::chrono::milliseconds(50);
+
+// Buttons under a finger. A click may begin and end between two instants of the world: its node
+// would see a button that is up. So each is down for kPressLasts of the world's time at least.
+class Buttons {
+public:
+    // As hand() above; a button that has just been pressed is released later.
+    Status press(sim::World& world, const talk::PressButton& order);
+    // Before each instant: releases those whose time has come.
+    void release_due(sim::World& world);
+    // Of another world.
+    void forget() { down_.clear(); }
+
+private:
+    struct Down {
+        std::string robot, button;
+        Time since;
+        bool let_go = false;  // it only waits for its time
+    };
+    std::vector<Down> down_;
+};
 
 }  // namespace vagus::serve

@@ -153,9 +153,14 @@ private:
             const Error none{Code::Unavailable, "the world is just being opened; try again"};
             return teller_.answer(order.request, Status(none));
         }
-        teller_.answer(order.request, hand(session_->world(), order));
+        teller_.answer(order.request, act(order));
         next_poses_ = Time{};
     }
+    template <typename Hand>
+    auto act(const Hand& order) {
+        return hand(session_->world(), order);
+    }
+    Status act(const talk::PressButton& order) { return buttons_.press(session_->world(), order); }
 
     void stop_plan() {
         // A plan that is held hears nothing but its debugger.
@@ -323,6 +328,7 @@ private:
 
     void begin_session(session::SimSession& session, const talk::Open& order) {
         session_ = &session;
+        buttons_.forget();
         session.world().stops_with_nodes();  // the server sees to that
         show_.begin();
         const auto link = session.world().bus().add({.name = "studio"});
@@ -453,6 +459,7 @@ private:
     void instant() {
         recording_.begin_turn();
         if (relive()) return;
+        buttons_.release_due(session_->world());
         show_.tell_frames(*session_, link_);
         show_.record(*session_);
         for (;;) {
@@ -527,6 +534,7 @@ private:
     Pacer pacer_;
     WorldShow show_{teller_};
     RunRecording recording_{teller_};
+    Buttons buttons_;
     PlanRunner plan_{teller_, pacer_, {.wall = wall_now, .run = [this] { return run_time(); }}};
     // What the debugger was told then it is told again by itself.
     Reliving past_{{.plan = plan_,

@@ -282,7 +282,7 @@ class Peers(unittest.TestCase):
     def conformance(self, port, *options):
         """The rows of `vagus conformance`, by name."""
         with vagus("conformance", f"tcp:127.0.0.1:{port}", "--may-drive", "--json", *options) as program:
-            program.wait_end()
+            program.wait_end(within=240)  # a hundred checks of a robot in real time
             text = "\n".join(line for line in program.lines if not line.startswith("vagus: "))
             self.assertTrue(text, program.lines)
         return {row["check"]: row for row in json.loads(text)["checks"]}

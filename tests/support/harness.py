@@ -100,9 +100,9 @@ class Program:
             line = self.wait_line("|".join(f"(?:{pattern})" for pattern in missing)).string
             missing = [pattern for pattern in missing if not re.search(pattern, line)]
 
-    def wait_end(self):
+    def wait_end(self, within=GIVE_UP_AFTER):
         """The exit status, all output read."""
-        status = self.process.wait(timeout=GIVE_UP_AFTER)
+        status = self.process.wait(timeout=within)
         while (line := self._queue.get(timeout=GIVE_UP_AFTER)) is not None:
             self.lines.append(line)
         return status

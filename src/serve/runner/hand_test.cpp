@@ -35,7 +35,7 @@ protected:
         auto opened = session::open_sim(folder.write("w.world.json", kWorld), {});
         EXPECT_TRUE(opened.ok());
         session.emplace(std::move(opened.value()));
-        EXPECT_TRUE(session->settle().ok());
+        EXPECT_TRUE(session->settle());
     }
     sim::World& world() { return session->world(); }
     Status say(bool down) { return buttons.press(world(), {0, "anna", "center", down}); }

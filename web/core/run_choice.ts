@@ -79,12 +79,19 @@ export function endedPlan(plan: Plan | undefined): EndedPlan | null {
   return { name: planName(plan.doc), result: plan.result };
 }
 
+type RunClock = Pick<Topics['clock']['is'], 'state' | 't'>;
+
+/** Before the first run: no time has passed. */
+export function hasNotBegun(clock: RunClock | undefined): boolean {
+  return clock?.state === 'none' && clock.t === 0;
+}
+
 /** In a simulator whose time has not begun to pass, nodes have their scripts and wait. */
 export function isReady(
   robot: Pick<Robot, 'kind'> | undefined,
-  clock: Pick<Topics['clock']['is'], 'state' | 't'> | undefined,
+  clock: RunClock | undefined,
 ): boolean {
-  return robot?.kind === 'simulator' && clock?.state === 'none' && clock.t === 0;
+  return robot?.kind === 'simulator' && hasNotBegun(clock);
 }
 
 export function planName(doc: Doc): string {

@@ -33,7 +33,7 @@ class Buttons {
 public:
     // As hand() above; a button that has just been pressed is released later.
     Status press(sim::World& world, const talk::PressButton& order);
-    // Before each instant: releases those whose time has come.
+    // Releases the buttons that are due. Call it before each instant.
     void release_due(sim::World& world);
     // Of another world.
     void forget() { down_.clear(); }

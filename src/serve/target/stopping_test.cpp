@@ -99,14 +99,22 @@ TEST_F(TargetTest, ASilentNodeThatAPersonKnowsOfIsAskedNoMore) {
     EXPECT_FALSE(node_document(kDrive).contains("stop"));
 }
 
+class GoodbyeTest : public TargetTest {
+protected:
+    // Says good-bye, and nothing after it.
+    void leave(uint16_t node) {
+        wire::Frame goodbye;
+        ASSERT_EQ(wire::encode_message(wire::Disconnected{}, node, goodbye), wire::Error::None);
+        bus.mute(node);
+        bus.others_say(goodbye);
+        pass(20ms);
+    }
+};
+
 // Nobody knows whether it is at rest; it is stopped when it is back.
-TEST_F(TargetTest, ANodeThatSaidGoodbyeIsNamedAndToldToStopUntilItIsBack) {
+TEST_F(GoodbyeTest, ANodeThatSaidGoodbyeIsNamedAndToldToStopUntilItIsBack) {
     run();
-    wire::Frame goodbye;
-    ASSERT_EQ(wire::encode_message(wire::Disconnected{}, kDrive, goodbye), wire::Error::None);
-    bus.mute(kDrive);
-    bus.others_say(goodbye);
-    pass(20ms);
+    leave(kDrive);
     EXPECT_THAT(target.problems(), Contains("drive is away"));
     stop();
     pass(100ms);
@@ -123,13 +131,9 @@ TEST_F(TargetTest, ANodeThatSaidGoodbyeIsNamedAndToldToStopUntilItIsBack) {
 }
 
 // Somebody has taken it off the robot.
-TEST_F(TargetTest, ANodeThatSaidGoodbyeIsNamedNoMoreOnceAPersonKnowsOfIt) {
+TEST_F(GoodbyeTest, ANodeThatSaidGoodbyeIsNamedNoMoreOnceAPersonKnowsOfIt) {
     run();
-    wire::Frame goodbye;
-    ASSERT_EQ(wire::encode_message(wire::Disconnected{}, kDrive, goodbye), wire::Error::None);
-    bus.mute(kDrive);
-    bus.others_say(goodbye);
-    pass(20ms);
+    leave(kDrive);
     stop();
     pass(100ms);
     target.acknowledge_stop();

@@ -8,7 +8,7 @@ import {
 } from '@tabler/icons-react';
 import type { Topics } from '../../protocol/messages';
 import { usePart, useStudio } from '../hooks';
-import { endedPlan, whatRuns } from '../../core/run_choice';
+import { endedPlan, hasNotBegun, whatRuns } from '../../core/run_choice';
 import { useEnd, useMayAct, usePastTime } from '../past_hooks';
 import { shownTime } from '../../core/numbers';
 import { Button } from '../parts/button';
@@ -134,7 +134,7 @@ interface Shown {
 
 /** "Running: WallFollow", "WallFollow finished, scripts run"; a world alone says so, too. */
 function stateText({ state, t, plan, nodes, ended }: Shown): string {
-  if (state === 'none' && t === 0) return text.run.ready;
+  if (hasNotBegun({ state, t })) return text.run.ready;
   if (state !== 'running') return text.run[state];
   if (ended) return nodes ? `${ended}, ${text.run.scriptsRun}` : ended;
   return `${text.run.running}: ${plan || nodes || text.run.worldOnly}`;

@@ -4,6 +4,7 @@ import {
   IconPlayerSkipForward,
   IconRotate2,
 } from '@tabler/icons-react';
+import { hasNotBegun } from '../../../core/run_choice';
 import { usePart, useStudio } from '../../hooks';
 import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
@@ -25,7 +26,7 @@ export function SpeedBar() {
   const studio = useStudio();
   const drives = useMayAct();
   const state = usePart('clock', {}, (is) => is?.state);
-  const ready = usePart('clock', {}, (is) => is?.state === 'none' && is.t === 0);
+  const ready = usePart('clock', {}, hasNotBegun);
   const speed = usePart('clock', {}, (is) => is?.speed);
   const real = usePart('clock', {}, (is) => is?.real.toFixed(1) ?? '');
   const simulates = usePart('robot', {}, (is) => is?.kind === 'simulator');

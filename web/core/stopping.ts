@@ -13,6 +13,8 @@ export type Stopped = Commands['stop']['out'];
 
 export class Stopping {
   readonly changed = new Emitter<void>();
+  /** Before anything is sent. */
+  readonly pressed = new Emitter<void>();
   /** Stop was pressed, and nobody has answered yet. */
   waits = false;
   private presses = 0;
@@ -24,6 +26,7 @@ export class Stopping {
 
   async press(): Promise<Stopped> {
     const press = ++this.presses;
+    this.pressed.emit();
     this.tell(true);
     this.post(press);
     try {

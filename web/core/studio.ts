@@ -6,6 +6,7 @@ import { Documents } from './documents';
 import { Emitter } from './emitter';
 import { Happenings } from './happenings';
 import type { Identity } from './identity';
+import { Orders } from './orders';
 import { Past } from './past';
 import { PickList } from './picks';
 import { Plotter } from './plotter';
@@ -26,6 +27,7 @@ type Changing = {
 export class Studio {
   readonly connection: Connection;
   readonly stopping: Stopping;
+  private readonly orders: Orders;
   readonly topics: TopicCache;
   readonly documents: Documents;
   readonly registry = new Registry();
@@ -71,6 +73,7 @@ export class Studio {
       clock: () => performance.now(),
     });
     this.stopping = new Stopping(this.connection, world);
+    this.orders = new Orders(this.connection, this.stopping);
     this.topics = new TopicCache(this.connection, (ms, act) => world.later(ms, act));
     this.documents = new Documents(this.connection, this.topics, {
       later: (ms, act) => world.later(ms, act),
@@ -172,6 +175,22 @@ export class Studio {
   ): Promise<Commands[C]['out']> {
     const seen = await this.documents.seen(doc);
     return this.send(command, { ...input, seen });
+  }
+
+  /**
+   * For what starts, pauses and steps a robot: sent once `ready` is there, and in the order in which it
+   * was asked for. Null, and not sent, if Stop was pressed meanwhile.
+   */
+  inTurn<T, R>(ready: Promise<T>, send: (prepared: T) => Promise<R>): Promise<R | null> {
+    return this.orders.ask(ready, send);
+  }
+
+  /** The same for a command that needs nothing first. */
+  sendInTurn<C extends CommandName>(
+    command: C,
+    input: Commands[C]['in'],
+  ): Promise<Commands[C]['out'] | null> {
+    return this.inTurn(Promise.resolve(), () => this.send(command, input));
   }
 
   /** Sends what nobody waits for; a failure is shown as a toast. */

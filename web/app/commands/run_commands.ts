@@ -38,7 +38,7 @@ export function runCommands(studio: Studio): Command[] {
       group,
       keys: ['F8'],
       enabled: () => may() && state() === 'running',
-      run: async () => void (await studio.send('run.pause', {})),
+      run: async () => void (await studio.sendInTurn('run.pause', {})),
     },
     {
       id: 'run.step',
@@ -53,7 +53,7 @@ export function runCommands(studio: Studio): Command[] {
       title: titles['run.reset'],
       group,
       enabled: () => may() && robotOf(studio)?.kind === 'simulator',
-      run: async () => void (await studio.send('run.reset', {})),
+      run: async () => void (await studio.sendInTurn('run.reset', {})),
     },
     {
       id: 'run.end',
@@ -91,11 +91,10 @@ export function nodeCommands(studio: Studio): Command[] {
     title: titles[id],
     group,
     enabled: has,
-    run: async () =>
-      reportFailed(
-        studio,
-        (await studio.send(command, { node: shownNode(studio)?.id ?? 0 })).failed,
-      ),
+    run: async () => {
+      const node = shownNode(studio)?.id ?? 0;
+      reportFailed(studio, (await studio.sendInTurn(command, { node }))?.failed ?? []);
+    },
   });
   return [
     {
@@ -162,10 +161,13 @@ export async function orderNodes(
   act: NodeAct,
   nodes: readonly NodeId[],
 ): Promise<void> {
-  if (act === 'load') await studio.documents.flushAll();
-  const answers = await Promise.all(
-    (nodes.length > 0 ? nodes : [0]).map((node) => studio.send(`node.${act}`, { node })),
+  const ready: Promise<unknown> = act === 'load' ? studio.documents.flushAll() : Promise.resolve();
+  const answers = await studio.inTurn(ready, () =>
+    Promise.all(
+      (nodes.length > 0 ? nodes : [0]).map((node) => studio.send(`node.${act}`, { node })),
+    ),
   );
+  if (answers === null) return;
   for (const answer of answers) {
     reportFailed(studio, answer.failed);
     if ('notes' in answer) for (const note of answer.notes) toast(studio.window, 'note', note.what);
@@ -187,17 +189,18 @@ function loadedIn(answers: readonly object[]): number {
 async function step(studio: Studio): Promise<void> {
   const standing =
     robotOf(studio)?.nodes.filter((node) => node.state === 'paused' && node.at) ?? [];
-  if (standing.length === 0) return void (await studio.send('run.step', {}));
+  if (standing.length === 0) return void (await studio.sendInTurn('run.step', {}));
   const shown = standing.find((node) => node.id === shownNode(studio)?.id);
-  reportFailed(
-    studio,
-    (await studio.send('node.step', { node: shown?.id ?? standing[0]?.id ?? 0 })).failed,
-  );
+  const node = shown?.id ?? standing[0]?.id ?? 0;
+  reportFailed(studio, (await studio.sendInTurn('node.step', { node }))?.failed ?? []);
 }
 
 async function load(studio: Studio, node: number): Promise<void> {
-  await studio.documents.flushAll();
-  const { loaded, failed } = await studio.send('node.load', { node });
+  const answer = await studio.inTurn(studio.documents.flushAll(), () =>
+    studio.send('node.load', { node }),
+  );
+  if (answer === null) return;
+  const { loaded, failed } = answer;
   reportFailed(studio, failed);
   const name = robotOf(studio)?.nodes.find((one) => one.id === loaded[0])?.name;
   if (name && loaded.length === 1) toast(studio.window, 'ok', text.editor.loaded(name));

@@ -18,7 +18,14 @@ export async function runRobot(studio: Studio): Promise<void> {
   const { doc } = studio.window.getState();
   note(studio, null);
   // What was typed last is checked before it is judged.
-  const findings = await freshFindings(studio);
+  await studio.inTurn(freshFindings(studio), (findings) => runChecked(studio, doc, findings));
+}
+
+async function runChecked(
+  studio: Studio,
+  doc: Doc | null,
+  findings: readonly Finding[],
+): Promise<void> {
   const meant = meantNow(studio);
   const plan = studio.topics.get('plan', {});
   const held = runStateOf(robotOf(studio), clockOf(studio), plan) === 'held';

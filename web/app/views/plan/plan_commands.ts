@@ -23,14 +23,14 @@ export function planCommands(studio: Studio): Command[] {
     title: titles[id],
     group,
     enabled: () => may() && when(),
-    run: async () => void (await studio.send(id, {})),
+    run: async () => void (await studio.sendInTurn(id, {})),
   });
   const held = (id: 'plan.held.step' | 'plan.held.go' | 'plan.held.drop'): Command => ({
     id,
     title: titles[id],
     group,
     enabled: () => may() && state() === 'paused',
-    run: async () => void (await studio.send(id, {})),
+    run: async () => void (await studio.sendInTurn(id, {})),
   });
   return [
     {
@@ -40,9 +40,10 @@ export function planCommands(studio: Studio): Command[] {
       enabled: () => may() && !goes() && planToStart(studio) !== undefined,
       async run() {
         const doc = planToStart(studio);
-        await studio.documents.flushAll();
-        await studio.send('plan.start', doc === undefined ? {} : { doc });
-        rememberPlan(studio, doc);
+        const started = await studio.inTurn(studio.documents.flushAll(), () =>
+          studio.send('plan.start', doc === undefined ? {} : { doc }),
+        );
+        if (started !== null) rememberPlan(studio, doc);
       },
     },
     make('plan.pause', () => state() === 'running'),

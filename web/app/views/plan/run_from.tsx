@@ -25,7 +25,7 @@ export default function RunFrom() {
   const run = () => {
     if (wrong) return;
     close();
-    void start(studio, board.doc, actor.name, fields);
+    start(studio, board.doc, actor.name, fields).catch((problem: unknown) => studio.tell(problem));
   };
   return (
     <OverlayFrame label={words.title(actor.name)}>
@@ -111,7 +111,8 @@ async function start(
       isOther && value !== undefined ? [[name, value]] : [],
     ),
   );
-  await studio.documents.flushAll();
-  studio.order('plan.start', { doc, from, set });
-  rememberPlan(studio, doc);
+  const started = await studio.inTurn(studio.documents.flushAll(), () =>
+    studio.send('plan.start', { doc, from, set }),
+  );
+  if (started !== null) rememberPlan(studio, doc);
 }

@@ -1,0 +1,88 @@
+import { expect, test } from 'vitest';
+import { Connection } from './connection';
+import { Orders } from './orders';
+import { Stopping } from './stopping';
+import { TestWorld } from './test_world';
+
+const settle = () => new Promise((done) => setTimeout(done));
+
+function begin() {
+  const world = new TestWorld();
+  const connection = new Connection(world, { token: 't0ken', client: 'tab', now: () => 0 });
+  connection.start();
+  const stopping = new Stopping(connection, world);
+  const orders = new Orders(connection, stopping);
+  world.welcome();
+  const sent: string[] = [];
+  const ask = (name: string, ready: Promise<unknown> = Promise.resolve()) =>
+    orders.ask(ready, async () => {
+      sent.push(name);
+      return Promise.resolve(name);
+    });
+  return { world, stopping, orders, sent, ask };
+}
+
+function later() {
+  let done = () => {};
+  const ready = new Promise<void>((resolve) => (done = resolve));
+  return { ready, done };
+}
+
+test('what is asked for while something waits is sent behind it', async () => {
+  const { sent, ask } = begin();
+  const texts = later();
+  const run = ask('run', texts.ready);
+  const pause = ask('pause');
+  await settle();
+  expect(sent).toEqual([]);
+  texts.done();
+  expect([await run, await pause]).toEqual(['run', 'pause']);
+  expect(sent).toEqual(['run', 'pause']);
+});
+
+test('an answer that takes long holds nothing up', async () => {
+  const { orders, sent, ask } = begin();
+  void orders.ask(Promise.resolve(), () => new Promise(() => {}));
+  expect(await ask('pause')).toBe('pause');
+  expect(sent).toEqual(['pause']);
+});
+
+test('what cannot be sent holds nothing up, and keeps the order of the rest', async () => {
+  const { sent, ask } = begin();
+  const texts = later();
+  const first = ask('first', texts.ready);
+  await expect(ask('refused', Promise.reject(new Error('no')))).rejects.toThrow('no');
+  const last = ask('last');
+  await settle();
+  expect(sent).toEqual([]);
+  texts.done();
+  await Promise.all([first, last]);
+  expect(sent).toEqual(['first', 'last']);
+});
+
+test('Stop drops what has not been sent, and nothing that is asked for after it', async () => {
+  const { stopping, sent, ask } = begin();
+  const texts = later();
+  const run = ask('run', texts.ready);
+  const step = ask('step');
+  void stopping.press();
+  expect(await run).toBeNull();
+  expect(await step).toBeNull();
+  expect(await ask('again')).toBe('again');
+  texts.done();
+  await settle();
+  expect(sent).toEqual(['again']);
+});
+
+test('what has not been sent when the connection is lost is never sent', async () => {
+  const { world, sent, ask } = begin();
+  const texts = later();
+  const run = ask('run', texts.ready);
+  world.last.events.closed();
+  await expect(run).rejects.toThrow('Not sent: the connection to the server was lost.');
+  world.pass(10_000);
+  world.welcome();
+  texts.done();
+  await settle();
+  expect(sent).toEqual([]);
+});

@@ -118,7 +118,7 @@ test('a run beside a recording of another one', wall, async (studio) => {
   await press('Enter');
   await reads(
     page.getByRole('alert'),
-    /in A began no actor "findwallangle"; did you mean findWallAngle\?/,
+    /\.mcap began no actor "findwallangle"; did you mean findWallAngle\?/,
   );
   await press('Control+a');
   await type('findWallAngle');

@@ -83,9 +83,9 @@ Result<Json> compared(const Json& asked) {
     const auto align = TRY(record::read_align(asked["align"].get<std::vector<std::string>>()));
     const MappedFile file_a = TRY(MappedFile::open(path_a));
     const MappedFile file_b = TRY(MappedFile::open(path_b));
-    // As a page calls them.
-    const mcap::Reader a = TRY(mcap::Reader::open(file_a.bytes(), "A"));
-    const mcap::Reader b = TRY(mcap::Reader::open(file_b.bytes(), "B"));
+    // By their paths: what is said of a damaged one holds a command for the terminal.
+    const mcap::Reader a = TRY(mcap::Reader::open(file_a.bytes(), path_a));
+    const mcap::Reader b = TRY(mcap::Reader::open(file_b.bytes(), path_b));
     const record::Comparison found = TRY(record::compare_runs(a, b, align));
     Json lanes = Json::array();
     for (const record::ComparedLane& lane : found.lanes) {

@@ -84,7 +84,7 @@ TEST(CompareHost, ItTellsWhereTwoRunsDifferAndWhatTheyAreDrawnFrom) {
     const Json aligned = ask({"actor", "findWallAngle"}, b);
     EXPECT_EQ(aligned["a"]["start"], aligned["a"]["actors"][1]["from"]);
     EXPECT_THAT(ask({"actor", "findwallangle"}, b)["error"].get<std::string>(),
-                HasSubstr("in A began no actor \"findwallangle\"; did you mean findWallAngle?"));
+                HasSubstr(a + " began no actor \"findwallangle\"; did you mean findWallAngle?"));
     const Json same = ask({"start"}, a);
     for (const Json& lane : same["lanes"]) EXPECT_FALSE(lane.contains("t")) << lane;
     EXPECT_THAT(ask({"start"}, "/no/x.mcap")["error"].get<std::string>(), HasSubstr("/no/x.mcap"));

@@ -130,6 +130,7 @@ const aesl::Script* PastBus::script_of(uint16_t node) const {
 
 void PastBus::join(run::VirtualTime& run, toolbox::BusNodes& nodes) {
     run_ = &run;
+    run_->keep_unheard();
     nodes_ = &nodes;
     std::vector<run::BusEvent> too_early;
     while (item_ < items_.size() && comes_before_line(items_[item_])) {

@@ -128,6 +128,7 @@ public:
     void wake_with(Woken woken) { woken_ = std::move(woken); }
     bool keep(const BusEvent& event) { return kept_.offer(event); }
     void overhear(const BusEvent& event) { heard_.push(event); }
+    std::deque<BusEvent> take_unheard() { return heard_.take_all(); }
 
 protected:
     Woken wait(Duration at_most, std::string_view event) override {
@@ -297,6 +298,7 @@ void VirtualTime::obey(plan::StartCode& command) {
     code.context = std::make_unique<Context>(*this, code, std::move(command.in),
                                              command.actor->of->outputs.size());
     code.grace_ends = Duration{command.actor->of->grace_ms * 1000};
+    for (const BusEvent& event : between_.take_all()) code.context->overhear(event);
     if (command.actor->of->kind == plan::Kind::Computation) {
         code.run();  // it never waits: it needs no stack of its own
     } else {
@@ -435,6 +437,9 @@ void VirtualTime::take_code() {
     } else {
         machine_.end(activation, code.context->given(), now_);
     }
+    if (keeps_unheard_ && !code.told) {
+        for (const BusEvent& event : code.context->take_unheard()) between_.push(event);
+    }
     code_.reset();
 }
 
@@ -488,9 +493,11 @@ void VirtualTime::meet_surroundings() {
         met_ = true;
         for (const BusEvent& event : pass(around->begin())) {
             if (options_.debugger) options_.debugger->heard();
-            const bool to_come = code_ && !code_->ended && code_->wake <= now_;  // its turn
+            // Its turn is to come, or over.
+            const bool later = code_ && (code_->ended ? keeps_unheard_ : code_->wake <= now_);
             deliver(event);
-            if (to_come) code_->context->overhear(event);
+            if (later) code_->context->overhear(event);
+            if (!code_ && keeps_unheard_) between_.push(event);
         }
     }
 }

@@ -28,6 +28,7 @@
 #include "run/code.hpp"
 #include "run/debug_values.hpp"
 #include "run/fiber.hpp"
+#include "run/heard_events.hpp"
 #include "run/held_events.hpp"
 #include "run/options.hpp"
 
@@ -63,6 +64,8 @@ public:
     // ---- for a run that follows the clock of another: from on_trace and from Surroundings ----
     // What was decided took until then.
     void move_clock(Time to) { now_ = std::max(now_, to); }
+    // What comes while no code waits is kept for the next one that does, as in real time.
+    void keep_unheard() { keeps_unheard_ = true; }
     // From now on tokens count from this one.
     void move_tokens(uint16_t token) { numbers_.move_to(token); }
     // Ends the run as abort() does, but with the result Error, at once.
@@ -135,6 +138,8 @@ private:
     std::optional<plan::Activate> begin_due_;
     std::optional<plan::SubPlanOver> over_due_;
     std::unique_ptr<Code> code_;
+    bool keeps_unheard_ = false;
+    HeardEvents between_;   // came while no code ran
     uint32_t trigger_ = 0;  // number of the frame that what is decided now follows from
     bool gate_closed_ = false;
     HeldEvents held_;

@@ -73,6 +73,8 @@ void PastBus::see_trace(Time at, std::string_view text) {
 Status PastBus::see_input(Time at, std::string_view text, const std::string& name) {
     Input input = TRY(read_input(text, at, name));
     if (const auto* const aborted = std::get_if<Aborted>(&input.what)) ended_by_ = aborted->by;
+    const auto* const asked = std::get_if<run::Request>(&input.what);
+    if (asked != nullptr && std::holds_alternative<run::Abort>(*asked)) ended_by_ = "";
     if (!std::holds_alternative<RecordingEnds>(input.what)) {
         items_.push_back({at, ++places_, std::move(input.what)});
     }

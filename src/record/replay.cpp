@@ -455,6 +455,7 @@ private:
 
     void ask(const run::Request& request) override {
         if (!debugger_) return;
+        if (std::holds_alternative<run::Abort>(request)) ended_by_ = "";
         run::Request asked = request;
         if (auto* const stop = std::get_if<run::AddBreakpoint>(&asked)) {
             std::string& plan = stop->breakpoint.plan;

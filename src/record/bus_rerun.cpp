@@ -9,6 +9,7 @@
 #include "base/seconds.hpp"
 #include "embed/bus_check.hpp"
 #include "embed/loaded_plan.hpp"
+#include "embed/plan_versions.hpp"
 #include "embed/prepared_run.hpp"
 #include "record/past_bus.hpp"
 #include "record/past_run.hpp"
@@ -36,6 +37,7 @@ public:
         names_.emplace(project.common, about_.project);
         past_ = TRY(PastBus::read(reader, std::move(project), until_.value_or(Time::max())));
         ended_by_ = past_->ended_by();
+        cut_ = cut_ || past_->is_cut();
         if (about_.plan.empty()) return Status::done();
         std::vector<std::string> toolboxes;
         for (const std::string& one : about_.toolboxes) toolboxes.push_back(folder_.path_of(one));
@@ -44,6 +46,7 @@ public:
         if (!plan_->ok()) {
             return Error{Code::BadInput, embed::format_findings(plan_->findings())};
         }
+        versions_.emplace(*plan_, folder_.path_of(about_.plan));
         if (!about_.from.empty()) plan_ = TRY(plan_->starting_at(about_.from));
         TRY(embed::check_names(*names_, *plan_));
         parts_.bus = &nodes_;
@@ -61,6 +64,7 @@ public:
         how_.on_trace = [&](const plan::TraceEvent& event) {
             const std::vector<PastBus::Told> told = past_->take(event);
             tell(told);
+            if (told.empty()) return running->abort();
             plan::TraceEvent then = event;
             last = then.at = told.back().at;
             for (const auto& listener : listeners_) listener(then);
@@ -68,6 +72,7 @@ public:
         };
         run::VirtualTime run(plan_->graph(), library_, how_);
         running = &run;
+        past_->on_saved([&](const PlanFiles& files) { take(files, run); });
         past_->join(run, nodes_);
         const run::Ended ended = run.run();
         tell(past_->rest());
@@ -87,6 +92,21 @@ public:
 
 private:
     InputWhat end_of_run() const override { return RecordingEnds{}; }
+
+    // One that was refused is refused again.
+    void take(const PlanFiles& files, run::VirtualTime& run) {
+        std::vector<std::string> saved;
+        for (const auto& [name, text] : files.texts) (void)folder_.add(name, text).ok();
+        for (const std::string& name : files.saved) saved.push_back(folder_.path_of(name));
+        const embed::PlanVersions::Made made = versions_->read(saved);
+        if (!made.plan.ok()) return;
+        versions_->hand_in(made);
+        if (run.do_as_asked(run::TakeVersion{made.next}).ok()) {
+            (void)versions_->took(made.plan.graph());
+        } else {
+            versions_->refused(made.plan.graph());
+        }
+    }
 
     Status take_options() {
         if (!about_.seed.empty()) how_.seed = TRY(embed::parse_seed(about_.seed));
@@ -113,6 +133,7 @@ private:
     run::CodeLibrary library_;
     std::optional<session::BusNames> names_;
     std::optional<embed::LoadedPlan> plan_;
+    std::optional<embed::PlanVersions> versions_;
     std::unique_ptr<PastBus> past_;
     run::RunOptions how_;
     std::vector<std::function<void(const plan::TraceEvent&)>> listeners_;

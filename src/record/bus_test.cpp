@@ -157,6 +157,20 @@ TEST_F(BusInMemory, WhatThePlanSentComesBeforeWhatItHeardBehindThat) {
     EXPECT_EQ(again->late(Time(95ms)), Time(100ms));
 }
 
+// Its run went on when it became too large: what is decided then again is no difference.
+TEST_F(BusInMemory, BehindTheEndOfOneThatIsCutThereIsNothingToCompare) {
+    recorder.input_at(5ms, RecordingEnds{"it has 512 MB"});
+    const auto again = past();
+    EXPECT_TRUE(again->is_cut());
+    EXPECT_TRUE(again->take({6ms, "P", plan::PlanStarted{}}).empty());
+    EXPECT_FALSE(again->parted());
+}
+
+TEST_F(BusInMemory, OneThatEndsWithItsRunIsWhole) {
+    recorder.input_at(5ms, RecordingEnds{});
+    EXPECT_FALSE(past()->is_cut());
+}
+
 TEST(BusMessages, AnEventIsReadAsItWasWritten) {
     const RecordedEvent event{.at = 2ms,
                               .frame = 7,

@@ -75,7 +75,9 @@ Status PastBus::see_input(Time at, std::string_view text, const std::string& nam
     if (const auto* const aborted = std::get_if<Aborted>(&input.what)) ended_by_ = aborted->by;
     const auto* const asked = std::get_if<run::Request>(&input.what);
     if (asked != nullptr && std::holds_alternative<run::Abort>(*asked)) ended_by_ = "";
-    if (!std::holds_alternative<RecordingEnds>(input.what)) {
+    if (const auto* const end = std::get_if<RecordingEnds>(&input.what)) {
+        cut_ = !end->why.empty();
+    } else {
         items_.push_back({at, ++places_, std::move(input.what)});
     }
     return Status::done();
@@ -224,6 +226,8 @@ void PastBus::apply(const Item& item, std::vector<run::BusEvent>& heard) {
         run_->fail(failed->why);
     } else if (std::holds_alternative<Aborted>(item.what)) {
         run_->abort();
+    } else if (const auto* const files = std::get_if<PlanFiles>(&item.what)) {
+        saved_(*files);
     } else if (const auto* const asked = std::get_if<run::Request>(&item.what)) {
         // What only paused it is in the times of all others.
         (void)run_->do_as_asked(*asked).ok();
@@ -242,6 +246,7 @@ std::vector<PastBus::Told> PastBus::take(const plan::TraceEvent& event) {
     if (!parted_) skip_late(told);
     const Line* const line = next_line();
     if (line == nullptr) {
+        if (cut_ && !parted_) return told;
         if (!parted_) parted_ = event.at;
         // Lines of the decision with which it parted come with that one, not before it.
         plan::TraceEvent now = event;

@@ -14,6 +14,7 @@
 // recorded, so that lateness does not add up.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -60,9 +61,13 @@ public:
     const aesl::Script* script_of(uint16_t node) const;
     // It was ended before it had begun, or nothing of it was written.
     bool never_began() const { return lines_.empty(); }
+    // The run went on when its recording ended: nothing is known of what came then.
+    bool is_cut() const { return cut_; }
     // Who ended the run.
     const std::optional<std::string>& ended_by() const { return ended_by_; }
 
+    // Plan files were saved then, and a new version of the plan made of them.
+    void on_saved(std::function<void(const PlanFiles&)> saved) { saved_ = std::move(saved); }
     // What the run begins with. Both are borrowed for the run.
     void join(run::VirtualTime& run, toolbox::BusNodes& nodes);
 
@@ -71,7 +76,8 @@ public:
         std::string text;
     };
     // A line of the run, as it is to be compared with what was recorded: as it was, if only its
-    // time is another one. Lines that tell of lateness come again with those after them.
+    // time is another one. Lines that tell of lateness come again with those after them. Behind
+    // the end of one that is cut there is nothing to compare: none.
     std::vector<Told> take(const plan::TraceEvent& event);
     // Those after the last line of the run.
     std::vector<Told> rest();
@@ -117,6 +123,8 @@ private:
 
     aesl::Project project_;
     std::optional<std::string> ended_by_;
+    bool cut_ = false;
+    std::function<void(const PlanFiles&)> saved_ = [](const PlanFiles&) {};
     std::vector<Item> items_;
     std::vector<Line> lines_;
     std::vector<Emission> emissions_;

@@ -71,7 +71,8 @@ public:
     // Ends the run as abort() does, but with the result Error, at once.
     void fail(std::string_view why);
     // Does at once what was asked of the debugger of that run: a variable is set, an event raised,
-    // the run ended. The Error says why it is not done; all else that is asked never is.
+    // a new version of the plan taken, the run ended. The Error says why it is not done; all else
+    // that is asked never is.
     Status do_as_asked(const Request& request);
 
     // From now on what is random in the code of actors is drawn from that seed. As set().

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/text.hpp"
 #include "run/debug_view.hpp"
 #include "run/surroundings.hpp"
 #include "run/virtual_time.hpp"
@@ -60,6 +61,9 @@ Status VirtualTime::do_as_asked(const Request& request) {
         machine_.raise(raised.watch, raised.given, now_);
     } else if (std::holds_alternative<Abort>(request)) {
         machine_.abort(now_);
+    } else if (const auto* const version = std::get_if<TakeVersion>(&request)) {
+        const std::vector<std::string> reasons = machine_.change(version->next, now_);
+        if (!reasons.empty()) return Error{vagus::Code::Refused, joined_lines(reasons)};
     } else {
         return Error{vagus::Code::Refused, "a run in virtual time does not do that by itself"};
     }

@@ -177,12 +177,14 @@ void FileTape::write_all(const Waiting& waiting) {
     }
 }
 
-Status FileTape::end() {
-    {
-        const std::lock_guard lock(mutex_);
-        over_ = true;
-    }
+void FileTape::close() {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
     more_.notify_one();
+}
+
+Status FileTape::end() {
+    close();
     if (thread_.joinable()) thread_.join();
     return state();
 }

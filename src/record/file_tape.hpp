@@ -54,6 +54,8 @@ public:
     uint16_t declare(const Topic& topic) override;
     void put(uint16_t topic, Time at, std::string_view data) override;
     void put_later(uint16_t topic, Time at, size_t about_bytes, Word word) override;
+    // Nothing more comes; what is there is written while the caller goes on.
+    void close();
     // Waits until all is written. The first thing that went wrong since the beginning.
     Status end();
     // All that is there now is to be written at once; flushed() tells when it is.

@@ -155,7 +155,7 @@ TEST(LogPoints, RandomOnesTellWhatTheRunItselfHeld) {
         about.world = kWorld;
         about.set = {"walldist=30"};
         about.max_time = "30";
-        auto recording = PlanRecording::begin(file, about, files, *live.run, Pace::Waits);
+        auto recording = PlanRecording::begin(file, about, files.all(), *live.run, Pace::Waits);
         ASSERT_TRUE(recording.ok());
         Looker looker(live.session());
         for (LogWish& wish : wishes) {

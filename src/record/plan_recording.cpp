@@ -21,24 +21,23 @@ int attach(Recorder& recorder, embed::PreparedRun& run) {
     return listener;
 }
 
-Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(const std::string& path, RunFile about,
-                                                            const FilesRead& files,
-                                                            embed::PreparedRun& run, Pace pace) {
+Result<std::unique_ptr<PlanRecording>> PlanRecording::begin(
+    const std::string& path, RunFile about, const std::map<std::string, std::string>& files,
+    embed::PreparedRun& run, Pace pace) {
     if (run.world() != nullptr) {
         const auto& faults = run.world()->session().world().chaos();
         if (!faults.empty()) about.chaos = sim::format_chaos(faults);
     }
-    PackedFiles packed = pack(files.all());
+    PackedFiles packed = pack(files);
     auto tape = TRY(start_tape(path, about, packed, pace));
     // make_unique cannot reach the constructor.
-    std::unique_ptr<PlanRecording> made(new PlanRecording(std::move(tape), format_run(about)));
+    std::unique_ptr<PlanRecording> made(
+        new PlanRecording(std::move(tape), format_run(about), std::move(packed)));
     std::vector<int>& listeners = made->listeners_;
     listeners.push_back(attach(*made->recorder_, run));
     listeners.push_back(run.listen(
         [recording = made.get()](const plan::TraceEvent& event) { recording->last_ = event.at; }));
     made->run_ = &run;
-    for (auto& [name, content] : packed.files) content.clear();
-    made->files_ = std::move(packed);
     if (!about.is_of_bus()) return made;
     made->tap_ = std::make_unique<PlanBusTap>(*made->tape_, *made->recorder_);
     listeners.push_back(
@@ -61,6 +60,9 @@ void PlanRecording::follow(run::Debugger& debugger) {
 
 // A plan that was named by its file is that file of the recording.
 void PlanRecording::asked(const run::Request& request, Time at) {
+    if (const auto* const version = std::get_if<run::TakeVersion>(&request)) {
+        return takes(*version, at);
+    }
     if (!does_something(request)) return;
     run::Request named = request;
     if (auto* const stop = std::get_if<run::AddBreakpoint>(&named)) {
@@ -75,19 +77,42 @@ void PlanRecording::asked(const run::Request& request, Time at) {
     }
 }
 
-Status PlanRecording::end() {
+void PlanRecording::changed(const FilesSaved& files) {
+    if (files.version == nullptr) return;
+    auto named_files = named(files);
+    if (!named_files.ok()) return stop(named_files.error().what);
+    const std::lock_guard lock(mutex_);
+    versions_[files.version] = std::move(named_files.value());
+}
+
+// On the deciding thread, so that it has its place among what was decided.
+void PlanRecording::takes(const run::TakeVersion& version, Time at) {
+    if (version.only_ask) return;
+    const std::lock_guard lock(mutex_);
+    const auto files = versions_.extract(version.next.graph.get());
+    if (files) recorder_->input_at(at, files.mapped());
+}
+
+void PlanRecording::let_go() {
+    if (run_ == nullptr) return;
     if (debugger_ != nullptr) std::exchange(debugger_, nullptr)->follow({});
     for (const int listener : std::exchange(listeners_, {})) run_->unlisten(listener);
     run_->defer_aborts(false);
     if (tap_) {
+        if (!is_stopped()) put(RecordingEnds{});
         run_->tap(nullptr);
-        recorder_->input_at(tap_->now(), RecordingEnds{});
-    } else if (recorder_) {
+    } else {
         recorder_->end(last_);
     }
+    run_ = nullptr;
+}
+
+Status PlanRecording::end() {
+    let_go();
     tap_.reset();
     recorder_.reset();
-    return tape_->end();
+    const Status written = tape_->end();
+    return is_stopped() ? Status::done() : written;
 }
 
 }  // namespace vagus::record

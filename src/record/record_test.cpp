@@ -490,9 +490,9 @@ TEST(StudioRecording, OneThatIsTooLargeEndsAndTheRunGoesOn) {
     (void)session.value().settle();
     RunFile about;
     about.world = world;
-    auto recording =
-        StudioRecording::begin(file, about, files.all(), session.value(), nullptr, 20000);
+    auto recording = StudioRecording::begin(file, about, files.all(), session.value(), nullptr);
     ASSERT_TRUE(recording.ok());
+    recording.value()->keep_at_most(20000);
     session.value().world().stops_with_nodes();
     std::optional<std::string> trouble;
     while (!trouble && session.value().now() < 600s) {

@@ -194,8 +194,8 @@ private:
         about.robot = words_.robot;
         about.poses = words_.poses;
         about.answers = words_.answers;
-        recording_ = TRY(record::PlanRecording::begin(options_.record, about, *files_, *prepared_,
-                                                      record::Pace::Waits));
+        recording_ = TRY(record::PlanRecording::begin(options_.record, about, files_->all(),
+                                                      *prepared_, record::Pace::Waits));
         return Status::done();
     }
 

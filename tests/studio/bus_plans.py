@@ -8,7 +8,8 @@ import unittest
 
 import projects
 from cases import Case
-from harness import Bus, listening, simulated
+from harness import Bus, listening, run_vagus, simulated, wait_until
+from mcap import Recording
 from page import Refused
 
 # Sends the robot off, then counts its rounds until the limit.
@@ -197,6 +198,99 @@ class BusPlans(Case):
         page.do("target.choose", target=f"tcp:127.0.0.1:{self.port}")
         self.wait_node(described=True)
         self.start()
+
+    # ---- its recording ----
+
+    def recording(self, number=1):
+        return self.folder / f".vagus/recordings/run-{number}.mcap"
+
+    def wait_whole(self, file):
+        wait_until(f"{file.name} with its end", lambda: Recording(file).complete)
+
+    def why(self, *question, file):
+        return json.loads(run_vagus("why", file, *question, "--json"))
+
+    def test_a_run_is_a_recording_that_can_be_replayed_and_asked(self):
+        page = self.open_robot()
+        self.start()
+        page.do("plan.set", level=0, name="rounds", value=1000)
+        page.do("event.send", name="go", args=[7])
+        self.wait(lambda: self.rounds() > 1001, "rounds from there")
+        # Also while it goes on.
+        chain = page.do("why.ask", about="actor", name="wait")["chain"]
+        self.assertEqual([link["doc"] for link in chain if "doc" in link][:1], ["drive.plan.json"], chain)
+        page.do("stop")
+        self.wait_plan("ended")
+        file = self.recording()
+        self.wait_whole(file)
+        recording = Recording(file)
+        (about,) = recording.json("/vagus/run")
+        self.assertEqual((about["kind"], about["verb"], about["bus"]), ("bus", "studio", f"tcp:127.0.0.1:{self.port}"))
+        self.assertLessEqual({"drive.plan.json", "robot.aesl", "nodes/thymio-II.json"}, set(recording.files))
+        asked = [line["do"] for line in recording.json("/vagus/input") if line["do"] not in ("hear", "node", "tokens")]
+        self.assertEqual(asked[-5:], ["pause", "set-variable", "continue", "end-plan", "end"])
+        said = [(one["args"], one.get("by", "")) for one in recording.json("/bus/events") if (one["node"], one["name"]) == (0, "go")]
+        self.assertEqual(said, [([150], "go"), ([7], "")])
+        self.assertRegex(run_vagus("replay", file), r"messages compared: no difference$")
+        self.assertIn("somebody ended the run", self.why("end", file=file)[-1]["what"])
+        (at,) = [line["t"] for line in recording.json("/vagus/input") if line["do"] == "set-variable"]
+        self.assertEqual(self.why("variable", "rounds", "--at", at, file=file)[0]["what"], "a person gave the variable rounds its value")
+
+    def test_runs_before_this_one_are_listed_and_looked_at(self):
+        page = self.open_robot()
+        for limit in (2, 3):
+            page.do("run.start", set={"limit": limit})
+            self.wait(lambda: self.plan.value["state"] == "ended" and self.rounds() == limit, "its end")
+        (kept,) = page.do("recording.list")["recordings"]
+        self.assertEqual((kept["path"], kept["number"]), (".vagus/recordings/run-1.mcap", 1))
+        opened = page.do("history.open", trace=kept["path"])
+        self.assertEqual((opened["from"], opened["refused"], opened["plan"]), (0, 0, True))
+        end = page.do("history.at", t=opened["to"], events=100, trace=kept["path"])
+        self.assertEqual((end["plan"]["result"], end["plan"]["doc"]), ("OK", "drive.plan.json"))
+        chain = page.do("why.ask", about="end", trace=kept["path"])["chain"]
+        self.assertEqual(chain[0]["doc"], "drive.plan.json")
+        self.wait_whole(self.recording(2))
+        for number in (1, 2):
+            self.assertRegex(run_vagus("replay", self.recording(number)), r"messages compared: no difference$")
+        # Once the robot is left, none of them is that of a run that is there.
+        page.do("target.leave")
+        self.assertEqual([one["number"] for one in page.do("recording.list")["recordings"]], [2, 1])
+
+    def test_before_its_plan_has_run_there_is_nothing_to_ask(self):
+        self.open_robot()
+        self.assertIn("none has run yet", self.refused("unavailable", "why.ask", about="end"))
+
+    def test_a_saved_plan_takes_over_in_the_recording_too(self):
+        page = self.open_robot()
+        self.start()
+        changed = json.loads(json.dumps(PLAN))
+        changed["actors"]["count"]["in"]["value"] = "rounds + 1000"
+        now = page.do("doc.open", doc="drive.plan.json")["text"]
+        page.edit("drive.plan.json", (0, len(now.encode("utf-16-le")) // 2, json.dumps(changed)))
+        page.do("doc.save", doc="drive.plan.json")
+        self.wait(lambda: self.rounds() > 2000, "rounds of the new version")
+        page.do("stop")
+        self.wait_plan("ended")
+        self.wait_whole(self.recording())
+        self.assertIn("plan-files", [line["do"] for line in Recording(self.recording()).json("/vagus/input")])
+        self.assertRegex(run_vagus("replay", self.recording()), r"messages compared: no difference$")
+
+    def test_what_a_killed_run_or_server_recorded_is_there(self):
+        page = self.open_robot()
+        self.start()
+        file = self.recording()
+        wait_until("a line on the disk", lambda: Recording(file).json("/plan/trace"))
+        os.kill(self.run_host(), signal.SIGKILL)
+        self.wait_clock("dead")
+        told = run_vagus("replay", file)
+        self.assertIn("has no end", told)
+        self.assertRegex(told, r"no difference$")
+        page.do("run.start")
+        self.wait_plan("running")
+        self.wait_rounds(2)
+        wait_until("a line on the disk", lambda: Recording(self.recording(2)).json("/plan/trace"))
+        self.studio.kill()
+        self.assertRegex(run_vagus("replay", self.recording(2)), r"no difference$")
 
 
 if __name__ == "__main__":

@@ -1920,7 +1920,7 @@ export interface Commands {
   }; out: Record<never, never> };
   /** Ends the run of tests; what came of seeds until then stays. */
   'tests.stop': { in: Record<never, never>; out: Record<never, never> };
-  /** Why something in a simulated run is as it is: the run is run again from its recording. Of the run that goes or went last, at an instant or, without one, as far as it is recorded. */
+  /** Why something in a run is as it is: the run is run again from its recording; of a robot on a bus what its plan decided is, and the rest is told as far as frames tell. Of the run that goes or went last, at an instant or, without one, as far as it is recorded. */
   'why.ask': { in: {
     about: 'actor' | 'variable' | 'motor' | 'event' | 'end';
     /** of an actor, a robot, an event; of a variable, or NODE.NAME of a node's */

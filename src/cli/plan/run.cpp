@@ -101,7 +101,8 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     about.poses = words.poses;
     about.answers = words.answers;
     const auto pace = words.clock == "virtual" ? record::Pace::Waits : record::Pace::NeverWaits;
-    recording_ = TRY(record::PlanRecording::begin(options.record, about, files, *prepared_, pace));
+    recording_ =
+        TRY(record::PlanRecording::begin(options.record, about, files.all(), *prepared_, pace));
     if (options.record_camera) recording_->follow_cameras();
     record_ = options.record;
     return Status::done();

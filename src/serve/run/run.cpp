@@ -98,6 +98,7 @@ talk::Open Run::open_order(const RunOrder& order) {
     open.from = order.from;
     open.bus = order.bus;
     open.project = order.project;
+    open.target = order.target;
     open.recording = order.recording;
     open.past = order.past;
     open.member = member_;
@@ -236,7 +237,7 @@ void Run::script_loaded(uint16_t node, const std::string& file, const std::strin
 }
 
 void Run::flush_recording(std::function<void()> done) {
-    if (!has_world()) return done();
+    if (!is_open() || opening_) return done();
     ask(talk::FlushRecording{}, [done = std::move(done)](const talk::Answer&) { done(); });
 }
 

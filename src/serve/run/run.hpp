@@ -41,6 +41,7 @@ struct RunOrder {
     std::vector<talk::BreakpointOrder> breakpoints;  // as PlanBreakpoints::orders()
     std::string robot;
     std::string bus, project;          // the plan on a bus instead of in a world: target and .aesl
+    std::string target;                // that bus, as a person names it
     std::string recording;             // file that it is recorded in; empty: none
     std::optional<talk::PastOf> past;  // it continues from there
     bool keep_poses = false;           // robots are at rest where they were before

@@ -39,7 +39,7 @@ embed::PlanVersions::Made PlanChange::read(const std::vector<std::string>& saved
     if (!told_of_read_) return versions_.read(saved);
     const FilesRead files;
     embed::PlanVersions::Made made = versions_.read(saved);
-    told_of_read_(saved, files.all());
+    told_of_read_({saved, files.all(), made.next.graph.get()});
     return made;
 }
 

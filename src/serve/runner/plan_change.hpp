@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "embed/plan_versions.hpp"
+#include "record/recording.hpp"
 #include "serve/runner/plan_talk.hpp"
 #include "serve/talk/news.hpp"
 #include "serve/talk/orders.hpp"
@@ -27,9 +28,8 @@ public:
     PlanChange(const embed::LoadedPlan& plan, std::string path, PlanTalk& talk, Tell tell)
         : versions_(plan, std::move(path)), talk_(talk), tell_(std::move(tell)) {}
 
-    // Is told of files that were saved, and of all that was read for the version made of them.
-    using Read = std::function<void(const std::vector<std::string>& saved,
-                                    const std::map<std::string, std::string>& read)>;
+    // Is told of files that were saved, before the plan is asked to take what is made of them.
+    using Read = std::function<void(const record::FilesSaved& files)>;
     void on_read(Read told) { told_of_read_ = std::move(told); }
 
     // Files have been saved: what is made of them is to take over.

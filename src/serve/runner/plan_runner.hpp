@@ -112,7 +112,7 @@ private:
     PlanStops stops_;
     PlanHeld held_;
     Asked asked_ = [](const run::Request&) {};
-    PlanChange::Read changed_ = [](const auto&, const auto&) {};
+    PlanChange::Read changed_ = [](const auto&) {};
     std::vector<uint64_t> broken_at_;  // breakpoints that hold it, by their numbers
     bool haste_ = false;
     bool relives_ = false;

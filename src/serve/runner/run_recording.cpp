@@ -11,9 +11,9 @@ std::map<std::string, std::string> RunRecording::Files::take() {
     return all;
 }
 
-void RunRecording::begin(const talk::Open& order, Files& read, session::SimSession& session,
-                         embed::PreparedRun* run) {
-    if (order.recording.empty()) return;
+namespace {
+
+record::RunFile about_run(const talk::Open& order) {
     record::RunFile about;
     about.plan = order.plan;
     about.world = order.world;
@@ -23,22 +23,58 @@ void RunRecording::begin(const talk::Open& order, Files& read, session::SimSessi
     about.seed = order.seed;
     about.poses = order.starts;
     about.chaos = order.chaos;
-    if (run != nullptr) about.max_time = kPlanMaxTime;
+    if (!order.plan.empty()) about.max_time = kPlanMaxTime;
     for (const auto& [name, value] : order.set) about.set.push_back(name + "=" + value);
+    return about;
+}
+
+}  // namespace
+
+void RunRecording::begin(const talk::Open& order, Files& read, session::SimSession& session,
+                         embed::PreparedRun* run) {
+    if (order.recording.empty()) return;
     std::map<std::string, std::string> files = read.take();
     if (order.world_text) files[order.world] = *order.world_text;
-    auto begun = record::StudioRecording::begin(order.recording, about, files, session, run);
-    if (!begun.ok()) {
-        return teller_.line(talk::LineKind::Warning,
-                            "this run is not recorded: " + begun.error().what);
-    }
-    recording_ = std::move(begun.value());
+    auto begun =
+        record::StudioRecording::begin(order.recording, about_run(order), files, session, run);
+    if (!begun.ok()) return tell_none(begun.error().what);
+    in_world_ = begun.value().get();
+    keep(std::move(begun.value()));
+}
+
+void RunRecording::begin_on_bus(const talk::Open& order, Files& read, embed::PreparedRun& run,
+                                run::Debugger& debugger) {
+    if (order.recording.empty()) return;
+    record::RunFile about = about_run(order);
+    about.kind = record::kBusKind;
+    about.verb = record::kStudioVerb;
+    about.bus = order.target;
+    about.project = order.project;
+    auto begun = record::PlanRecording::begin(order.recording, about, read.take(), run,
+                                              record::Pace::NeverWaits);
+    if (!begun.ok()) return tell_none(begun.error().what);
+    on_bus_ = begun.value().get();
+    on_bus_->follow(debugger);
+    keep(std::move(begun.value()));
+}
+
+void RunRecording::tell_none(const std::string& why) {
+    teller_.line(talk::LineKind::Warning, "this run is not recorded: " + why);
+}
+
+void RunRecording::keep(std::unique_ptr<record::Recording> recording) {
+    recording_ = std::move(recording);
+    recording_->keep_at_most(record::kStudioRecordingBytesMax);
+}
+
+void RunRecording::let_go() {
+    if (on_bus_) on_bus_->let_go();
 }
 
 void RunRecording::end() {
     if (!recording_) return;
     const Status ended = recording_->end();
-    tell();
+    tell_trouble();
     if (!ended.ok()) teller_.line(talk::LineKind::Warning, ended.error().what);
     if (recording_->dropped() > 0) {
         teller_.line(talk::LineKind::Warning,
@@ -47,32 +83,33 @@ void RunRecording::end() {
                                  recording_->dropped()));
     }
     answer_flushes(true);
+    in_world_ = nullptr;
+    on_bus_ = nullptr;
     recording_.reset();
 }
 
 void RunRecording::begin_turn() {
-    if (recording_) recording_->begin_turn();
+    if (in_world_) in_world_->begin_turn();
 }
 
 void RunRecording::hold(sim::World& world) {
-    recording_ ? recording_->hold() : world.hold_instant();
+    in_world_ ? in_world_->hold() : world.hold_instant();
 }
 
 void RunRecording::asked(const run::Request& request) {
-    if (recording_) recording_->asked(request);
+    if (in_world_) in_world_->asked(request);
 }
 
-void RunRecording::changed(const std::vector<std::string>& saved,
-                           const std::map<std::string, std::string>& read) {
-    if (recording_) recording_->changed(saved, read);
+void RunRecording::changed(const record::FilesSaved& files) {
+    if (recording_) recording_->changed(files);
 }
 
 void RunRecording::loaded(uint16_t node, const std::string& file, const std::string& text) {
-    if (recording_) recording_->loaded(node, file, text);
+    if (in_world_) in_world_->loaded(node, file, text);
 }
 
 void RunRecording::reseeded(uint64_t seed) {
-    if (recording_) recording_->reseeded(seed);
+    if (in_world_) in_world_->reseeded(seed);
 }
 
 void RunRecording::flush(uint64_t request) {
@@ -85,10 +122,15 @@ void RunRecording::flush(uint64_t request) {
 
 void RunRecording::tell() {
     if (!recording_) return;
+    recording_->tend();
+    tell_trouble();
+    answer_flushes(false);
+}
+
+void RunRecording::tell_trouble() {
     if (const auto trouble = recording_->take_trouble()) {
         teller_.line(talk::LineKind::Warning, *trouble);
     }
-    answer_flushes(false);
 }
 
 void RunRecording::answer_flushes(bool all) {

@@ -8,6 +8,11 @@
 //     recording.begin_turn();                        // at each place at which something can come
 //     recording.tell();                              // now and then
 //     recording.end();                               // while the session is there
+//
+// On a bus nothing has to be told: the threads of the run record what comes, and wait for nothing.
+//
+//     recording.begin_on_bus(order, read, prepared, debugger);
+//     recording.let_go();                            // the run is over; its debugger may go
 #pragma once
 
 #include <cstdint>
@@ -19,6 +24,7 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "record/plan_recording.hpp"
 #include "record/studio_recording.hpp"
 #include "serve/runner/teller.hpp"
 #include "serve/talk/orders.hpp"
@@ -49,14 +55,17 @@ public:
     // recorded is told, and the run goes on.
     void begin(const talk::Open& order, Files& read, session::SimSession& session,
                embed::PreparedRun* run);
+    // The same of a run on a bus; the debugger is borrowed until let_go().
+    void begin_on_bus(const talk::Open& order, Files& read, embed::PreparedRun& run,
+                      run::Debugger& debugger);
+    void let_go();
     void end();
 
     void begin_turn();
     // Time is stopped for a moment in which the nodes answer.
     void hold(sim::World& world);
     void asked(const run::Request& request);
-    void changed(const std::vector<std::string>& saved,
-                 const std::map<std::string, std::string>& read);
+    void changed(const record::FilesSaved& files);
     void loaded(uint16_t node, const std::string& file, const std::string& text);
     void reseeded(uint64_t seed);
 
@@ -66,10 +75,16 @@ public:
     void tell();
 
 private:
+    void tell_none(const std::string& why);
+    void keep(std::unique_ptr<record::Recording> recording);
+    void tell_trouble();
     void answer_flushes(bool all);
 
     Teller& teller_;
-    std::unique_ptr<record::StudioRecording> recording_;
+    std::unique_ptr<record::Recording> recording_;
+    // The same one, as what it is.
+    record::StudioRecording* in_world_ = nullptr;
+    record::PlanRecording* on_bus_ = nullptr;
     // Of the server, and of the tape.
     std::vector<std::pair<uint64_t, uint64_t>> flushes_;
 };

@@ -43,8 +43,7 @@ class Runner {
 public:
     explicit Runner(Pipe pipe) : pipe_(std::move(pipe)) {
         plan_.on_asked([this](const run::Request& request) { recording_.asked(request); });
-        plan_.on_changed(
-            [this](const auto& saved, const auto& read) { recording_.changed(saved, read); });
+        plan_.on_changed([this](const record::FilesSaved& files) { recording_.changed(files); });
     }
 
     RunnerEnd run() {
@@ -230,14 +229,17 @@ private:
         heard_ = session::events_heard(plan.plans(), library.templates());
         plan_.want(order.breakpoints);
         const bool in_world = prepared_->world() != nullptr;
-        if (in_world && !fleet_) {
-            recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
-        } else if (in_world && !order.recording.empty()) {
+        if (fleet_ && !order.recording.empty()) {
             teller_.line(talk::LineKind::Note,
                          "this run is not recorded: its plan asks the fleet, and what other robots "
                          "say cannot be run again");
+        } else if (in_world) {
+            recording_.begin(order, read, prepared_->world()->session(), &*prepared_);
         }
         plan_.begin(plan, order.plan, in_world ? PlanRunner::On::World : PlanRunner::On::Bus);
+        if (!in_world && !fleet_) {
+            recording_.begin_on_bus(order, read, *prepared_, plan_.debugger());
+        }
         in_world ? run_in_world(order) : run_on_bus(session::stop_events(library.templates()));
         plan_.forget();
         heard_.clear();
@@ -309,9 +311,11 @@ private:
                 }
                 for (const plan::TraceEvent& event : running.take()) plan_.see(event);
                 hear_plan();  // where it is paused, after what led there
+                recording_.tell();
                 tell_bus_clock();
             }
         }
+        recording_.let_go();
         plan_.tell();
         plan_.end_talk();
         teller_.tell(talk::PlanOver{});

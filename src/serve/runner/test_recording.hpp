@@ -34,7 +34,7 @@ inline std::string record_wall(const std::string& path, const std::string& walld
     about.set = words.set;
     about.max_time = words.max_time;
     const auto tape =
-        record::PlanRecording::begin(path, about, files, *run.value(), record::Pace::Waits);
+        record::PlanRecording::begin(path, about, files.all(), *run.value(), record::Pace::Waits);
     EXPECT_TRUE(tape.ok());
     EXPECT_TRUE(run.value()->run().ok());
     EXPECT_TRUE(tape.value()->end().ok());

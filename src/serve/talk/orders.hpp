@@ -90,6 +90,7 @@ struct Open {
     std::string from = {};   // the actor that it begins with; empty: its start
     std::string bus = {},
                 project = {};      // the plan on a bus instead of in a world: target and .aesl
+    std::string target = {};       // that bus, as a person names it
     std::vector<Pose> poses = {};  // of robots, in their order; none: where the file says
     std::string recording = {};    // file that the run is recorded in; empty: none
     // Of a run with a past, as `plan run` has them.
@@ -111,6 +112,7 @@ struct Open {
         each("from", it.from);
         each("bus", it.bus);
         each("project", it.project);
+        each("target", it.target);
         each("poses", it.poses);
         each("recording", it.recording);
         each("seed", it.seed);

@@ -107,7 +107,10 @@ Status Workbench::open_plan(RunOrder order) {
     order.world.clear();
     order.bus = TRY(bus_->open_door());
     order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
+    order.target = project_->target;
     record_bus();
+    // A robot keeps several versions of its project, and has no room for the runs of each.
+    if (!places_.serves) record_run(order);
     return run_.open(order, now_);
 }
 
@@ -235,6 +238,7 @@ void Workbench::perform(const life::EndRunner& end) {
 
 void Workbench::perform(const life::Disconnect&) {
     target_.disconnect();
+    recordings_.over(run_.time() > 0);
     run_.close();
     bus_.reset();
     loaded_by_world_.clear();

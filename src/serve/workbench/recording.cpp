@@ -20,6 +20,17 @@ namespace {
 
 constexpr size_t kNotAgainMax = 1000;  // bytes, as in the protocol
 
+// Why a run that is shown has no recording.
+std::string nothing_to_ask(bool on_bus, bool serves) {
+    if (!on_bus) return "nothing has run yet, so there is nothing to ask about; Run starts it";
+    if (serves) {
+        return "this is asked of a recording, and a robot that serves itself records no runs on "
+               "its bus; run its plan from the studio of another computer";
+    }
+    return "of a robot on a bus the runs of its plan are recorded, and none has run yet; Run "
+           "starts it";
+}
+
 }  // namespace
 
 // Seconds of what is kept: those of a simulation, or since the bus or the plan on it began.
@@ -152,12 +163,8 @@ Result<std::string> Workbench::asked_recording(const std::string& path) const {
 }
 
 Result<std::string> Workbench::recording_of_run() const {
-    if (bus_) {
-        return Error{Code::Unavailable,
-                     "this is asked of a recording, and the run of a robot on a bus is not "
-                     "recorded; choose Simulator"};
-    }
-    const std::string path = recordings_.of_run(run_.time() > 0);
+    // On a bus nothing of a run before is shown.
+    const std::string path = recordings_.of_run(bus_ || run_.time() > 0);
     std::error_code failed;
     if (!path.empty() && std::filesystem::exists(path, failed)) return path;
     if (!path.empty() && run_.time() > 0) {
@@ -165,9 +172,7 @@ Result<std::string> Workbench::recording_of_run() const {
                                          ": the recording of this run is not there any more; "
                                          "Run makes a new one"};
     }
-    return Error{Code::Unavailable,
-                 "nothing has run yet, so there is nothing to ask about; Run "
-                 "starts it"};
+    return Error{Code::Unavailable, nothing_to_ask(bus_ != nullptr, places_.serves)};
 }
 
 // ---- a recording that is opened: its run is run again, all of it ----

@@ -44,7 +44,7 @@ void Recordings::enter(fs::path folder) {
 }
 
 Result<std::string> Recordings::next(bool had_begun, const std::string& needed) {
-    none(had_begun);
+    over(had_begun);
     if (folder_.empty()) return Error{Code::Unavailable, "no project is open"};
     std::error_code failed;
     fs::create_directories(folder_, failed);
@@ -61,7 +61,7 @@ Result<std::string> Recordings::next(bool had_begun, const std::string& needed) 
 }
 
 // One in which no time has passed deletes its file when it ends.
-void Recordings::none(bool had_begun) {
+void Recordings::over(bool had_begun) {
     std::error_code failed;
     if (had_begun && !now_.empty() && fs::exists(now_, failed)) before_ = now_;
     now_.clear();

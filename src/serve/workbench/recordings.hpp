@@ -28,6 +28,8 @@ public:
     // Older ones are deleted, but never the one before, nor `needed`. The Error says why there can
     // be none.
     Result<std::string> next(bool had_begun, const std::string& needed = "");
+    // The run has ended, and none takes its place yet; as next().
+    void over(bool had_begun);
     // The one of the run that is there or, as long as no time has passed in it, of the run before.
     // Empty: there is none.
     std::string of_run(bool has_begun) const;
@@ -43,7 +45,6 @@ public:
     bool keeps(const std::string& path) const;
 
 private:
-    void none(bool had_begun);
     void make_room(const std::string& needed) const;
 
     std::filesystem::path folder_;

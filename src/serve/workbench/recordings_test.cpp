@@ -110,6 +110,11 @@ TEST(Recordings, ThoseOfRunsBeforeAreListedTheNewestFirst) {
     EXPECT_EQ(kept[0].bytes, 100u);
     EXPECT_GT(kept[0].when_wall, 1.5e12);  // after 2017
     EXPECT_EQ(kept[1].number, 2u);
+    // The run that was there has ended: its recording is one of them.
+    recordings.over(true);
+    EXPECT_EQ(recordings.of_run(true), "");
+    EXPECT_EQ(recordings.of_run(false), recordings.kept().front().path);
+    EXPECT_EQ(recordings.kept().front().number, 11u);
     recordings.enter(folder / "gone");
     EXPECT_TRUE(recordings.kept().empty());
 }

@@ -230,6 +230,7 @@ private:
         plan_.want(order.breakpoints);
         const bool in_world = prepared_->world() != nullptr;
         if (fleet_ && !order.recording.empty()) {
+            (void)read.take();  // new versions of the plan note what they read by themselves
             teller_.line(talk::LineKind::Note,
                          "this run is not recorded: its plan asks the fleet, and what other robots "
                          "say cannot be run again");

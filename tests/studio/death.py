@@ -206,7 +206,7 @@ class Death(Case):
         page.do("node.load", node=0)
         switch.kill()
         node.kill()
-        self.wait(lambda: self.robot.value["state"] in ("lost", "connecting"), "the loss of the bus")
+        self.wait(lambda: self.robot.value["state"] in ("lost", "connecting", "failed"), "the loss of the bus")
         self.assertEqual(page.do("stop")["stood"], [])
         self.assertIn("failed", page.do("node.run", node=1))
         page.do("doc.open", doc=projects.DOC)

@@ -52,13 +52,16 @@ std::string nearest(std::string_view typed, const std::vector<std::string_view>&
 }
 
 std::string known_instead(std::string_view typed, const std::vector<std::string>& known) {
-    constexpr size_t kNamed = 10;
+    constexpr size_t kNamed = 12;
     const std::string near = nearest(typed, known);
     if (!near.empty()) return "did you mean " + near + "?";
     if (known.empty()) return "there is none";
     std::string words = "there are: ";
     for (size_t i = 0; i < std::min(known.size(), kNamed); ++i) {
         words += (i == 0 ? "" : ", ") + known[i];
+    }
+    if (known.size() > kNamed) {
+        words += " and " + std::to_string(known.size() - kNamed) + " more";
     }
     return words;
 }

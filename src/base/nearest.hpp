@@ -14,7 +14,7 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& know
 std::string nearest(std::string_view typed, const std::vector<std::string_view>& known);
 
 // How a sentence about an unknown word ends: "did you mean say?", else "there are: a, b" (the first
-// ten) or "there is none".
+// twelve "and 3 more") or "there is none".
 std::string known_instead(std::string_view typed, const std::vector<std::string>& known);
 
 }  // namespace vagus

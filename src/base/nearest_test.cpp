@@ -28,6 +28,8 @@ TEST(Nearest, ASentenceSaysWhatThereIs) {
     EXPECT_EQ(known_instead("sey", known), "did you mean say?");
     EXPECT_EQ(known_instead("count", known), "there are: say, wait");
     EXPECT_EQ(known_instead("count", {}), "there is none");
+    EXPECT_EQ(known_instead("count", std::vector<std::string>(15, "on")),
+              "there are: on, on, on, on, on, on, on, on, on, on, on, on and 3 more");
 }
 
 TEST(Nearest, WordsBeyondTheLimitAreNotCompared) {

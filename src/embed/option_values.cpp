@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/file.hpp"
+#include "base/nearest.hpp"
 #include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
@@ -170,8 +171,10 @@ Result<std::pair<int, plan::Value>> parse_set(const plan::GraphPlan& plan,
         if (value.ok()) return std::pair(static_cast<int>(slot), std::move(value.value()));
         return usage(fmt::format("--set {}: {}", text, value.error().what));
     }
-    return Error{Code::NotFound, fmt::format("--set {}: the plan {} has no variable \"{}\"", text,
-                                             plan.name, name)};
+    std::vector<std::string> known;
+    for (const plan::GraphVariable& one : plan.variables) known.push_back(one.name);
+    return Error{Code::NotFound, fmt::format("--set {}: the plan {} has no variable \"{}\"; {}",
+                                             text, plan.name, name, known_instead(name, known))};
 }
 
 Result<std::optional<Duration>> parse_max_time(const std::string& text) {

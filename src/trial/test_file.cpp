@@ -87,6 +87,10 @@ public:
                          fmt::format("expected the smaller number first, found {} and {}",
                                      seeds.first, seeds.last)};
         }
+        if (seeds.last > kSeedMax) {
+            return Error{Code::Limit,
+                         fmt::format("expected seeds up to {}, found {}", kSeedMax, seeds.last)};
+        }
         if (seeds.last - seeds.first < kSeedsMax) return Status::done();
         return Error{Code::Limit, fmt::format("expected at most {} of them, found {}", kSeedsMax,
                                               seeds.last - seeds.first + 1)};
@@ -210,6 +214,12 @@ private:
         } else if (json.find("ends") != nullptr) {
             made.ends = in.word("ends", ways_to_end(), Need::Required);
             made.by = in.text("by", Need::Optional);
+            if (!made.by.empty() && made.ends == "OK") {
+                in.complain(json.find("by")->at,
+                            fmt::format("\"by\" of {}: a plan that a supervisor ends is never OK; "
+                                        "expect Interrupted, or leave \"by\" out",
+                                        in.name()));
+            }
         } else if (json.find("eventually") != nullptr) {
             made.kind = Expectation::Kind::Eventually;
             condition(in, "eventually", made);

@@ -23,6 +23,7 @@ namespace vagus::trial {
 
 constexpr std::string_view kTestEnding = ".test.json";
 constexpr uint64_t kSeedsMax = 10'000;      // of one test
+constexpr uint64_t kSeedMax = INT64_MAX;    // as numbers of JSON are read
 constexpr size_t kExpectationsMax = 1'000;  // of one test
 constexpr double kMaxTimeMax = 86'400;      // s
 constexpr double kMaxTimeUnlessSaid = 60;   // s

@@ -62,10 +62,16 @@ TEST(TestFile, EveryMistakeHasItsPlaceAndItsFix) {
               "expected, as { \"ends\": \"OK\" }");
     EXPECT_EQ(error_of("\"sedes\":[1,2],"),
               "t:1:47: the test has the unknown key \"sedes\"; did you mean \"seeds\"?");
+    EXPECT_EQ(error_of("", R"({"ends":"OK","by":"escape"})"),
+              "t:1:75: \"by\" of expectation 1: a plan that a supervisor ends is never OK; expect "
+              "Interrupted, or leave \"by\" out");
     EXPECT_EQ(error_of("\"seeds\":[2],"),
               "t:1:55: \"seeds\" of the test: write the first and the last, as [1, 20]");
     EXPECT_EQ(error_of("\"seeds\":[2,1],"),
               "t:1:55: \"seeds\" of the test: expected the smaller number first, found 2 and 1");
+    EXPECT_EQ(parse_seeds("0..18446744073709551615").error().what,
+              "--seeds 0..18446744073709551615: expected seeds up to 9223372036854775807, found "
+              "18446744073709551615");
     EXPECT_EQ(error_of("\"seeds\":[1,10000],"), "");
     EXPECT_EQ(error_of("\"seeds\":[1,10001],"),
               "t:1:55: \"seeds\" of the test: expected at most 10000 of them, found 10001");

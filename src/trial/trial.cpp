@@ -32,6 +32,12 @@ Error at_expectation(const TestFile& test, const Expectation& one, const std::st
     return {Code::BadInput, at_place(test.path, one.at, text_of(one) + ": " + what)};
 }
 
+// What the options of a run that it gives would be refused for, "--set speed=x: …", does not say
+// where they come from.
+Error in_test(const TestFile& test, const Error& error) {
+    return {error.code, error.what.starts_with("--") ? test.path + ": " + error.what : error.what};
+}
+
 // ---- where its robot begins ----
 
 Result<std::string> draw_start(const TestFile& test, uint64_t seed) {
@@ -157,7 +163,9 @@ private:
         if (words_.chaos.empty() && !test_.chaos.faults.empty()) words_.chaos = test_.path;
         if (test_.starts) words_.poses.push_back(TRY(draw_start(test_, outcome_.seed)));
         outcome_.poses = words_.poses;
-        prepared_ = TRY(embed::PreparedRun::prepare(*plan_, words_, parts_));
+        auto prepared = embed::PreparedRun::prepare(*plan_, words_, parts_);
+        if (!prepared.ok()) return in_test(test_, prepared.error());
+        prepared_ = std::move(prepared.value());
         prepared_->tell([](const std::string&) {});
         session::PlanWorld* const world = prepared_->world();
         if (world != nullptr) outcome_.faults = world->session().world().chaos();

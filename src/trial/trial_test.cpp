@@ -90,7 +90,11 @@ TEST_F(Trials, EndsTellsHowAndByWhom) {
 
 TEST_F(Trials, ValuesAreSet) {
     EXPECT_EQ(wrong(R"({"always":"n == 7"})", R"("set":{"n":7},)"), "");
-    EXPECT_NE(wrong(R"({"always":"n == 7"})", R"("set":{"m":7},)").find("no variable \"m\""),
+    EXPECT_EQ(wrong(R"({"always":"n == 7"})", R"("set":{"m":7},)")
+                  .find((folder_ / "t.test.json").string() + ": --set m=7: the plan "),
+              0u);
+    EXPECT_NE(wrong(R"({"always":"n == 7"})", R"("set":{"m":7},)")
+                  .find("has no variable \"m\"; did you mean n?"),
               std::string::npos);
 }
 

@@ -77,7 +77,9 @@ private:
         }
     }
 
+    // None where it came true at the beginning: there is no instant before it.
     Result<std::vector<bool>> answer(const std::vector<Continuation>& all) {
+        if (all.empty()) return std::vector<bool>();
         turning_.continuations += static_cast<int>(all.size());
         return ask_(all);
     }

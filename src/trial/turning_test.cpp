@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "base/rng.hpp"
+#include "trial/turning_text.hpp"
 
 using namespace vagus;
 using namespace vagus::trial;
@@ -93,6 +94,16 @@ TEST(Turning, OfSeveralTheLargestIsTold) {
     ASSERT_TRUE(turning.turn);
     EXPECT_EQ(turning.turn->after.at, 15s);
     EXPECT_EQ(turning.steps.size(), 2u);
+}
+
+TEST(Turning, NothingIsContinuedWhereItWasSoAtTheBeginning) {
+    Planted planted{step(0s, 1, 1)};
+    const Turning turning = turning_of(planted, {.end = 0s, .came = true});
+    EXPECT_FALSE(turning.turn);
+    EXPECT_EQ(turning.curve.size(), 1u);
+    EXPECT_EQ(planted.asked, 0);
+    EXPECT_EQ(turning_sentence(turning),
+              "not decided by chance: there is no instant before it to continue from");
 }
 
 TEST(Turning, AFlatCurveIsNotDecidedByChance) {

@@ -47,6 +47,7 @@ std::string describe_run(const TurningTold& told) {
 
 std::string describe_flat(const Turning& turning) {
     const Share all = turning.all();
+    if (all.of == 0) return "not decided by chance: there is no instant before it to continue from";
     if (all.came == all.of && all.of > 0) {
         return fmt::format("not decided by chance: it became true in all {} continuations", all.of);
     }

@@ -1,8 +1,11 @@
 #include "cli/options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <utility>
 
 #include "base/nearest.hpp"
@@ -10,6 +13,8 @@
 
 namespace vagus::cli {
 namespace {
+
+constexpr double kSecondsMax = 1e9;  // some thirty years
 
 aesl::Dialect dialect_of(const std::string& word) {
     if (word == "modern") return aesl::Dialect::Modern;
@@ -55,6 +60,21 @@ void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high) {
             if (whole && fits) return "";
             return "expected a whole number from " + std::to_string(low) + " to " +
                    std::to_string(high) + ", found \"" + given + "\"";
+        },
+        ""));
+}
+
+void takes_seconds(CLI::Option& option, Seconds kind) {
+    option.type_name("S");
+    option.check(CLI::Validator(
+        [kind](std::string& given) -> std::string {
+            char* end = nullptr;
+            const double seconds = std::strtod(given.c_str(), &end);
+            const bool number = !given.empty() && *end == '\0';
+            const bool begun = kind == Seconds::Instant ? seconds >= 0 : seconds > 0;
+            if (number && begun && seconds <= kSecondsMax) return "";
+            return fmt::format("expected a number of seconds {}, found \"{}\"",
+                               kind == Seconds::Instant ? "from 0 on" : "above 0", given);
         },
         ""));
 }

@@ -30,6 +30,11 @@ void takes_one_of(CLI::Option& option, std::vector<std::string> words);
 // was found.
 void takes_whole_number(CLI::Option& option, int64_t low, uint64_t high);
 
+// The option takes seconds: of a time that passes those above 0; of an instant, or of a wait, 0 as
+// well. What is no such number, as nan, is answered with what was found.
+enum class Seconds { Passing, Instant };
+void takes_seconds(CLI::Option& option, Seconds kind);
+
 // `--toolbox FILE`, as often as wanted.
 void add_toolbox_option(CLI::App& verb, std::vector<std::string>& files);
 

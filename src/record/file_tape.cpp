@@ -2,11 +2,23 @@
 
 #include <utility>
 
+#include "mcap/records.hpp"
+
 namespace vagus::record {
+
+Result<GrowingFile> create_recording(const std::string& path) {
+    const auto before = MappedFile::open(path);
+    const bool is_other = before.ok() && !before.value().bytes().empty() &&
+                          !before.value().bytes().starts_with(mcap::kMagic);
+    if (!is_other) return GrowingFile::create(path);
+    return Error{Code::Refused, path +
+                                    ": is there already, and is no recording; name another file "
+                                    "for the recording, as run.mcap"};
+}
 
 Result<std::unique_ptr<FileTape>> FileTape::create(const std::string& path, Pace pace) {
     // Owner: the sink, which lives as long as the tape.
-    const auto file = std::make_shared<GrowingFile>(TRY(GrowingFile::create(path)));
+    const auto file = std::make_shared<GrowingFile>(TRY(create_recording(path)));
     auto tape = std::make_unique<FileTape>(
         [file](std::string_view bytes) { return file->append(bytes); }, pace);
     return tape;

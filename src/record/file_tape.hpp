@@ -37,6 +37,10 @@ constexpr std::chrono::milliseconds kFlushEvery{1000};
 
 enum class Pace { NeverWaits, Waits };
 
+// A new file for a recording, also in place of an older one. Refused where the file is something
+// else: a plan, a script, whose name was typed where that of the recording belongs.
+Result<GrowingFile> create_recording(const std::string& path);
+
 class FileTape final : public Tape {
 public:
     // Writes what is attached, by name, at once. The Error names the file and why it cannot be

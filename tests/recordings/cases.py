@@ -231,7 +231,8 @@ class Recordings(unittest.TestCase):
         told = run_vagus("replay", self.file, "--jumps", self.folder / "instants.txt", status=2)
         self.assertIn('line 1: expected an instant in seconds, as 82.5, found "1 2"', told)
         self.assertRegex(told, r"line 2: 99\.000000 s: .*run\.mcap has instants from 0 to 10\.\d+ s")
-        self.assertIn("none: the file cannot be read", run_vagus("replay", self.file, "--jumps", "none", status=2))
+        self.assertIn("none: cannot be read", run_vagus("replay", self.file, "--jumps", "none", status=2))
+        self.assertIn("cannot be read: Is a directory", run_vagus("replay", self.file, "--jumps", self.folder, status=2))
         self.assertIn("--until excludes --jumps",
                       run_vagus("replay", self.file, "--jumps", "-", "--until", 1, status=2))
 
@@ -508,7 +509,7 @@ class Recordings(unittest.TestCase):
                 (["--set", "walldist=3"], "--set goes with --from"),
                 (["--from", 2, "--until", 1], "--until comes before --from"),
                 (["--until", 1, "--record", self.folder / "x.mcap"], "say from when on it is"),
-                (["--record", self.file], "is the recording that is run again")):
+                (["--record", self.file], "is the recording that is read")):
             with self.subTest(words=words):
                 self.assertIn(sentence, self.replays(*words, status=2))
         self.assertRegex(self.replays(), NO_DIFFERENCE)
@@ -616,6 +617,28 @@ class Recordings(unittest.TestCase):
         self.assertIn("is no recording", self.replays(status=2))
         self.file.unlink()
         self.assertIn("cannot be read", self.replays(status=2))
+
+    def test_a_file_that_is_read_or_is_no_recording_is_not_written(self):
+        self.follow_wall(max_time=2)
+        whole = self.file.read_bytes()
+        self.assertIn("is the recording that is read", self.replays("--repair", self.file, status=2))
+        self.assertEqual(self.file.read_bytes(), whole)
+        plan = self.folder / "Mine.plan.json"
+        plan.write_text("{ unfinished")
+        for words in (["replay", self.file, "--record", plan], ["replay", self.file, "--repair", plan]):
+            with self.subTest(words=words):
+                self.assertIn("is there already, and is no recording", run_vagus(*words, status=2))
+                self.assertEqual(plan.read_text(), "{ unfinished")
+
+    def test_instants_that_are_none(self):
+        self.follow_wall(max_time=2)
+        for option in ("--until", "--from"):
+            for seconds in ("nan", "inf", "-1", "1e300", "x"):
+                with self.subTest(option=option, seconds=seconds):
+                    self.assertIn(f'{option}: expected a number of seconds from 0 on, found "{seconds}"',
+                                  self.replays(f"{option}={seconds}", status=2))
+        self.assertIn('--at: expected a number of seconds from 0 on, found "nan"',
+                      run_vagus("why", self.file, "end", "--at", "nan", status=2))
 
     def test_what_cannot_be_recorded(self):
         plan = EXAMPLES / "patterns/Square.plan.json"

@@ -212,7 +212,7 @@ class TurningPoint(unittest.TestCase):
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 0)
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 1001)
         self.refused("contact > 1", "--turning-point", "--at", 1)
-        self.refused("contact > 1", "--until -1: expected seconds above 0", "--until=-1")
+        self.refused("contact > 1", "--until: expected a number of seconds above 0", "--until=-1")
         self.assertIn("--tries", run_vagus("why", self.file, "end", "--tries", 5, status=2))
         self.assertIn("expected a question", run_vagus("why", self.file, status=2))
 

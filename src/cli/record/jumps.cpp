@@ -4,10 +4,11 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <optional>
+#include <sstream>
 
+#include "base/file.hpp"
 #include "base/json.hpp"
 #include "base/seconds.hpp"
 #include "base/text.hpp"
@@ -98,13 +99,14 @@ int tell_jumps(const mcap::Reader& reader, const JumpsOptions& options) {
     Answering answering(*keyframes.value(), options);
     answering.say_why_none();
     if (options.list == "-") return answering.all_of(std::cin);
-    std::ifstream lines(options.list);
-    if (!lines) {
-        return complain(fmt::format("--jumps {}: the file cannot be read; name a file of instants "
-                                    "in seconds, one a line, or - for the standard input",
-                                    options.list),
+    const auto list = read_file(options.list);
+    if (!list.ok()) {
+        return complain(fmt::format("--jumps {}; name a file of instants in seconds, one a line, "
+                                    "or - for the standard input",
+                                    list.error().what),
                         kExitUsage);
     }
+    std::istringstream lines(list.value());
     return answering.all_of(lines);
 }
 

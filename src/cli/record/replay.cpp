@@ -38,12 +38,22 @@ struct ReplayOptions {
     std::string jumps;
 };
 
+// What is read is not written.
+Status check_other_file(const std::string& option, const std::string& to,
+                        const std::string& recording) {
+    std::error_code error;
+    if (!std::filesystem::equivalent(to, recording, error)) return Status::done();
+    return Error{
+        Code::Refused,
+        fmt::format("{} {}: is the recording that is read; name another file", option, to)};
+}
+
 // ---- repair ----
 
 // The same messages and attachments, with an end.
 int repair(const mcap::Reader& reader, const std::string& to) {
-    auto file = GrowingFile::create(to);
-    if (!file.ok()) return complain(file.error());
+    auto file = record::create_recording(to);
+    if (!file.ok()) return complain(file.error(), kExitUsage);
     mcap::Writer writer([&file](std::string_view bytes) { return file.value().append(bytes); });
     for (const mcap::Attachment& one : reader.attachments()) writer.attach(one);
     std::map<uint16_t, uint16_t> schemas;
@@ -168,11 +178,7 @@ Result<std::unique_ptr<record::FileTape>> new_recording(const ReplayOptions& opt
                                                         const mcap::Reader& reader,
                                                         const record::RerunOptions& how) {
     if (options.record.empty()) return std::unique_ptr<record::FileTape>();
-    std::error_code error;
-    if (std::filesystem::equivalent(options.record, options.file, error)) {
-        return Error{Code::Refused, "--record " + options.record +
-                                        ": is the recording that is run again; name another file"};
-    }
+    TRY(check_other_file("--record", options.record, options.file));
     auto tape = TRY(record::FileTape::create(options.record, record::Pace::Waits));
     for (const mcap::Attachment& one : reader.attachments()) {
         const auto instead = how.with.find(one.name);
@@ -320,6 +326,8 @@ int run_again(const ReplayOptions& options, const mcap::Reader& reader,
 }
 
 int replay(const ReplayOptions& options) {
+    const Status other = check_other_file("--repair", options.repair, options.file);
+    if (!other.ok()) return complain(other.error(), kExitUsage);
     const auto file = MappedFile::open(options.file);
     if (!file.ok()) return complain(file.error(), kExitUsage);
     const auto reader = mcap::Reader::open(file.value().bytes(), options.file);
@@ -363,18 +371,19 @@ void add_replay(CLI::App& app, int& exit_code) {
     CLI::App* const verb = app.add_subcommand("replay", "runs a recorded run again, and compares");
     auto options = std::make_shared<ReplayOptions>();  // owners: CLI11's options and the callback
     takes_file(*verb->add_option("FILE", options->file, "the recording")->required(), {".mcap"});
-    verb->add_option("--until", options->until,
-                     "ends at this instant and tells what there is at it")
-        ->type_name("S");
+    takes_seconds(*verb->add_option("--until", options->until,
+                                    "ends at this instant and tells what there is at it"),
+                  Seconds::Instant);
     verb->add_option("--with", options->with,
                      "a file in place of that of the same name in the recording; tells where the "
                      "two runs part; again for more")
         ->type_name("FILE|NAME=FILE")
         ->allow_extra_args(false);
-    verb->add_option("--from", options->from,
-                     "from this instant on the run goes another way: what was done from outside "
-                     "later is not done, --set and --with take effect there")
-        ->type_name("S");
+    takes_seconds(
+        *verb->add_option("--from", options->from,
+                          "from this instant on the run goes another way: what was done from "
+                          "outside later is not done, --set and --with take effect there"),
+        Seconds::Instant);
     verb->add_option("--set", options->set,
                      "with --from: writes a variable of the plan at that instant; again for more")
         ->type_name("NAME=VALUE")

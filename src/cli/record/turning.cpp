@@ -28,7 +28,7 @@ CLI::Option* add_turning_options(CLI::App& verb, TurningOptions& options) {
         verb.add_option("--until", options.until,
                         "with --turning-point: until when the condition is waited for (the end of "
                         "the recording)");
-    until->type_name("S");
+    takes_seconds(*until, Seconds::Passing);
     CLI::Option* const at_once = verb.add_option(
         "-j", options.search.at_once,
         "with --turning-point: continuations that run at once (one for each processor)");
@@ -50,11 +50,6 @@ int tell(const TurningOptions& options) {
     if (!file.ok()) return complain(file.error(), kExitUsage);
     const auto reader = mcap::Reader::open(file.value().bytes(), search.file);
     if (!reader.ok()) return complain(reader.error(), kExitUsage);
-    if (options.until && !(*options.until > 0)) {
-        return complain(
-            fmt::format("--until {}: expected seconds above 0, as --until 60", *options.until),
-            kExitUsage);
-    }
     std::optional<Time> until;
     if (options.until) until = from_seconds(*options.until);
     const auto continued =

@@ -82,7 +82,7 @@ void add_why(CLI::App& app, int& exit_code) {
         ->type_name("NAME");
     CLI::Option* const at =
         verb->add_option("--at", options->at, "the instant that the question is about (the end)");
-    at->type_name("S");
+    takes_seconds(*at, Seconds::Instant);
     CLI::Option* const all = verb->add_flag("--all", options->all, "all of a long chain");
     verb->add_flag("--json", options->json, "the answer as JSON on stdout");
     CLI::Option* const turning = add_turning_options(*verb, options->turning);

@@ -12,8 +12,6 @@
 namespace vagus::cli {
 namespace {
 
-constexpr double kDurationMax = 1e9;  // seconds
-
 // "2.5", "max"; 0 is the fastest.
 std::optional<double> speed_of(const std::string& text) {
     if (text == "max") return 0;
@@ -38,17 +36,9 @@ void add_time_options(CLI::App& verb, SimRunOptions& options) {
             },
             "how fast time passes (default: 1, real time)")
         ->type_name("X|max");
-    verb.add_option("--duration", options.duration, "ends after so many simulated seconds")
-        ->type_name("S")
-        ->check(CLI::Validator(
-            [](std::string& text) -> std::string {
-                char* end = nullptr;
-                const double seconds = std::strtod(text.c_str(), &end);
-                const bool good =
-                    !text.empty() && *end == '\0' && seconds > 0 && seconds <= kDurationMax;
-                return good ? "" : "expected a number of seconds above 0, found \"" + text + "\"";
-            },
-            ""));
+    takes_seconds(
+        *verb.add_option("--duration", options.duration, "ends after so many simulated seconds"),
+        Seconds::Passing);
     add_seed_option(verb, options.seed, "of everything random (default: that of the world file)");
 }
 

@@ -1,4 +1,5 @@
 // F5 runs what is on the screen: the top bar says what runs, and what cannot run is said where F5 was pressed.
+import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { aesl, makeProject } from './support/robots.mjs';
@@ -248,5 +249,22 @@ test(
     await seen(tab('Palette'));
     await layout('Present');
     await shows(page, 'Mine');
+  },
+);
+
+test(
+  'the top bar stays in one line when the plan has ended and scripts run on',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page, press, button } = studio;
+    await button(/Speed of the clock/).click();
+    await page.getByRole('menuitem', { name: /As fast as/i }).click();
+    await press('F5');
+    await seen(page.getByText(/scripts run/));
+    const top = (/** @type {string} */ part) =>
+      page.locator(part).evaluate((one) => one.getBoundingClientRect().top);
+    const bottom = (/** @type {string} */ part) =>
+      page.locator(part).evaluate((one) => one.getBoundingClientRect().bottom);
+    assert.ok((await top('.topbar__tools')) < (await bottom('.runbar')), 'in one line');
   },
 );

@@ -50,6 +50,24 @@ TEST_F(FilesAgainTest, ADeletedTextThatNobodyAsksForIsInTheTrashAsItWasTyped) {
     EXPECT_FALSE(Files(root).open("note.txt").ok());
 }
 
+// Else the text is said to be saved, and what runs is the other file.
+TEST_F(FilesAgainTest, AFileThatIsReplacedByALinkOutOfTheProjectIsGone) {
+    const fs::path outside = root.string() + "-outside.txt";
+    std::ofstream(outside) << "another";
+    Files files(root);
+    ASSERT_TRUE(files.open("note.txt").ok());
+    fs::remove(root / "note.txt");
+    fs::create_symlink(outside, root / "note.txt");
+    files.tick(kDiskEvery);
+    EXPECT_TRUE(files.state("note.txt").value().gone);
+    EXPECT_EQ(files.save("note.txt").error().code, Code::BadInput);
+    EXPECT_EQ(on_disk("note.txt"), "another");
+    fs::remove(root / "note.txt");
+    EXPECT_TRUE(files.save("note.txt").ok());
+    EXPECT_EQ(on_disk("note.txt"), "hello\n");
+    fs::remove(outside);
+}
+
 TEST_F(FilesAgainTest, AfterARestartANewFileIsNotMergedWithTheDeletedTextOfItsName) {
     {
         Files files(root);

@@ -184,11 +184,11 @@ bool Files::has_conflict(const std::string& doc) const {
 }
 
 void Files::look_at_disk(const std::string& path, File& file, Look look) {
+    // What leads out of the project is no file of it.
     const Result<fs::path> real_path = real(path);
-    if (!real_path.ok()) return;
     std::error_code failed;
-    const bool gone = !fs::is_regular_file(real_path.value(), failed);
-    const auto written = fs::last_write_time(real_path.value(), failed);
+    const bool gone = !real_path.ok() || !fs::is_regular_file(real_path.value(), failed);
+    const auto written = gone ? file.written : fs::last_write_time(real_path.value(), failed);
     const uintmax_t size = gone ? 0 : fs::file_size(real_path.value(), failed);
     const bool same = file.gone == gone && file.written == written && file.size == size;
     if (look == Look::IfTouched && (same || (gone && file.gone))) return;

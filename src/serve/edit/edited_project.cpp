@@ -19,6 +19,10 @@ std::string path_from(const std::string& file, const std::string& named) {
     return (fs::path(folder_of_path(file)) / named).lexically_normal().generic_string();
 }
 
+bool is_border(const std::string& path) {
+    return path == ".";
+}
+
 std::string name_from(const std::string& file, const std::string& path) {
     return fs::path(path).lexically_relative(folder_of_path(file)).generic_string();
 }

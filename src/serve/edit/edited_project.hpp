@@ -30,6 +30,8 @@ std::string made_for(uint32_t member);
 std::string folder_of_path(const std::string& path);
 // A path that is in a file, as a document; it may lead out ("../x").
 std::string path_from(const std::string& file, const std::string& named);
+// Of such a path: the folder of the project itself, which a robot of a world may name as its own.
+bool is_border(const std::string& path);
 // The way back: how `file` names that document.
 std::string name_from(const std::string& file, const std::string& path);
 // Whether `path` is the folder or is in it; the empty folder holds everything.

@@ -83,6 +83,7 @@ struct Subject {
 void check_named(const Subject& subject) {
     for (const NamedPath& named : named_paths(subject.path, subject.text)) {
         const std::string path = path_from(subject.path, named.text);
+        if (named.folder && is_border(path)) continue;
         const bool inside = check_path(path).ok();
         if (inside && (named.folder || subject.files.exists(path))) continue;
         DocFinding finding{subject.path, Severity::Error, "named_file", {},

@@ -397,6 +397,14 @@ TEST_F(EditTest, WorldsAndProjectFilesAreChecked) {
     EXPECT_EQ(finding("project").end, (aesl::Position{3, 9}));
 }
 
+TEST_F(EditTest, AWorldMayNameTheFolderThatItIsIn) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\", \"world\": \"w.world.json\" }\n");
+    write("w.world.json", R"({ "format": "vagus-world/1", "size": [2, 2],
+  "robots": [{ "name": "t", "type": "thymio2", "at": [1, 1], "project": "." }] })");
+    enter({.world = "w.world.json", .project_file = "vagus.json"});
+    EXPECT_THAT(findings(), IsEmpty());
+}
+
 TEST_F(EditTest, ProjectsInsideAreNotThisOne) {
     write("vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
     write("bad.plan.json", "{}\n");

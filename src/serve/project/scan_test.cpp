@@ -174,6 +174,18 @@ TEST_F(ScanTest, AFileOfAnOddNameThatIsNamedIsNotLeftOut) {
     EXPECT_THAT(refused.error().what, HasSubstr("names odd#.aesl: a name has an odd character"));
 }
 
+// As in examples/alarm: its robots run the project that the world is in.
+TEST_F(ScanTest, AWorldMayNameTheFolderThatItIsIn) {
+    std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
+    std::ofstream(root / "w.world.json")
+        << R"({"format":"vagus-world/1","size":[2,2],)"
+        << R"("robots":[{"name":"t","type":"thymio2","at":[1,1],"project":"."}]})";
+    const auto collected = collect_bundle(root.string());
+    ASSERT_TRUE(collected.ok()) << collected.error().what;
+    EXPECT_THAT(collected.value().bundle.files,
+                testing::Contains(testing::Field(&BundleFile::path, "w.world.json")));
+}
+
 TEST_F(ScanTest, NoPartOfAProjectIsSent) {
     std::ofstream(root / "vagus.json") << R"({"format":"vagus-project/1","name":"p"})";
     ASSERT_TRUE(collect_bundle(root.string()).ok());

@@ -86,6 +86,7 @@ Status add_named(const Files& files, std::set<std::string>& paths) {
         if (!text.ok()) continue;  // no text: it names nothing
         for (const NamedPath& named : named_paths(file, text.value())) {
             const std::string path = path_from(file, named.text);
+            if (named.folder && is_border(path)) continue;
             TRY(check_named(files, file, path));
             if (files.exists(path) && paths.insert(path).second) left.push_back(path);
         }

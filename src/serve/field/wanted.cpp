@@ -92,8 +92,10 @@ void Wanted::watch_health() {
 void Wanted::begin() {
     under_way_ = std::exchange(next_, std::nullopt);
     const fleet::Want want = *under_way_;
-    // It has not got the version that others have: the one before is in force.
-    const bool is_back = last_ && (last_->result == "refused" || last_->result == "rolled_back");
+    // It has not got the version that others have: the one before is in force. Where the last wish
+    // was to go back itself (it names no version), nothing is known of that.
+    const bool is_back = last_ && !last_->sha256.empty() &&
+                         (last_->result == "refused" || last_->result == "rolled_back");
     last_ = fleet::Version{want.number, want.sha256, "taken", ""};
     health_.reset();
     stops_before_ = deployments_.stops();

@@ -168,6 +168,14 @@ TEST_F(WantedTest, BackChangesNothingWhereTheLastVersionWasRefused) {
     EXPECT_EQ(why, "the version before is in force already");
 }
 
+TEST_F(WantedTest, BackIsRefusedAgainWhereNothingIsBefore) {
+    for (const int64_t number : {7, 8}) {
+        wants({number, "", "", true});
+        EXPECT_EQ(told.back(), "refused");
+        EXPECT_THAT(why, HasSubstr("nothing is before it"));
+    }
+}
+
 TEST_F(WantedTest, ItsConditionIsToldUntilItWasTrueForLongEnough) {
     healthy = fleet::Healthy{"battery > 20", 5s};
     wants(serve(7, "one"));

@@ -313,6 +313,7 @@ class Rights(Case):
             return done.stdout
         self.assertIn("cannot be the name of a robot", refused(2, "--robot", "all"))
         self.assertIn("cannot be the name of a robot", refused(2, "--robot", "operator"))
+        self.assertIn("--robot t9..t1: expected two numbers, the smaller one first", refused(2, "--robot", "t9..t1"))
         many = [word for i in range(1001) for word in ("--robot", f"r{i}")]
         self.assertIn("--robot: 1000 at a time at most, found 1001", refused(1, *many))
         missing = self.command("serve", self.broker_folder)

@@ -214,6 +214,12 @@ Status check(const BrokerOptions& options) {
                                               kFleetUsersMax, options.robots.size())};
     }
     for (const std::string& robot : options.robots) {
+        if (robot.find("..") != std::string::npos) {
+            return Error{Code::BadInput,
+                         fmt::format("--robot {}: expected two numbers, the smaller one first, at "
+                                     "most {} robots, as t1..t30",
+                                     visible(robot), fleet::kNamesInRangeMax)};
+        }
         const bool taken =
             std::find(std::begin(kUsers), std::end(kUsers), robot) != std::end(kUsers);
         if (fleet::is_robot_name(robot) && !taken) continue;

@@ -26,7 +26,6 @@ namespace {
 using fleet::Kind;
 using namespace std::chrono_literals;
 
-constexpr double kWaitMax_s = 86400;
 constexpr double kTold_s = fleet::kTellFor / 1s;
 constexpr Duration kForEver = Duration::max() / 4;
 constexpr uint64_t kForgotten = 1;  // number of the last message that is taken back
@@ -489,8 +488,9 @@ void add_fleet(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand("fleet", "many robots, and a broker that joins them");
     verb->add_option("TARGET", call->broker.target, "mqtt[s]://HOST[:PORT]/FLEET");
     verb->add_flag("--json", call->json, "results as JSON");
-    verb->add_option("--wait", call->wait_s, "seconds to wait for answers, or for an end")
-        ->check(CLI::Range(0.0, kWaitMax_s));
+    takes_seconds(
+        *verb->add_option("--wait", call->wait_s, "seconds to wait for answers, or for an end"),
+        Seconds::Instant);
     add_broker_options(*verb, call->broker);
     verb->require_subcommand(1);
     verb->footer(

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kWordMin = -32768;
 constexpr int kWordMax = 65535;  // 0x8000 … 0xffff are the negative ones
-constexpr double kWaitMax_s = 86400;
 
 // What all verbs fill; CLI11 keeps pointers to its members.
 struct Call {
@@ -314,9 +313,9 @@ void add_net(CLI::App& app, int& exit_code) {
     takes_file(*net->add_option("--project", call->net.project_file,
                                 "an .aesl project: names of events, script variables, lines"),
                {".aesl"});
-    net->add_option("--wait", call->net.wait_s,
-                    "seconds to wait for nodes or for an end; see the verbs")
-        ->check(CLI::Range(0.0, kWaitMax_s));
+    takes_seconds(*net->add_option("--wait", call->net.wait_s,
+                                   "seconds to wait for nodes or for an end; see the verbs"),
+                  Seconds::Instant);
     net->require_subcommand(1);
     net->footer(
         "Nodes are named by number or name. Exit codes: 0 done, 1 no such node or no answer, 2 "

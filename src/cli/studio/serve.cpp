@@ -78,7 +78,7 @@ void add_serve(CLI::App& app, int& exit_code) {
         "  vagus serve examples/follow-wall --start\n"
         "  vagus serve /var/lib/vagus/robot --start --target ser:/dev/ttyACM0 --listen 0.0.0.0 "
         "--token-file token\n"
-        "  vagus serve examples/alarm/thymio --start --fleet mqtts://broker:8883/lab --tls-ca "
+        "  vagus serve examples/alarm --start --fleet mqtts://broker:8883/lab --tls-ca "
         "ca.crt --login r1.login");
     verb->callback([options, &exit_code] {
         check_door_options(options->door);

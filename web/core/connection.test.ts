@@ -22,6 +22,20 @@ function make(firstId = 1) {
 
 const settled = () => new Promise((resolve) => setTimeout(resolve));
 
+test('APageThatHadControlSaysSoWhenItComesBack', () => {
+  const world = new TestWorld();
+  let hasControl = false;
+  const hadControl = () => hasControl;
+  new Connection(world, { token: '', client: 'me', hadControl, now: () => 0 }).start();
+  world.welcome();
+  expect(world.last.sent[0]?.in).not.toHaveProperty('had_control');
+  hasControl = true;
+  world.last.events.closed();
+  world.pass(kFirstRetryMs);
+  world.last.events.open();
+  expect(world.last.sent[0]?.in).toHaveProperty('had_control', true);
+});
+
 test('HelloIsTheFirstMessageAndNothingGoesBeforeItsAnswer', () => {
   const { world, connection } = make();
   void connection.send('stop', {});

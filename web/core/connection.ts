@@ -87,6 +87,8 @@ export interface ConnectionOptions {
   /** The server has given this page another name: another one has its own. */
   renamed?: ((client: string) => void) | undefined;
   name?: string | undefined;
+  /** This page had control when it was last heard of it. */
+  hadControl?: (() => boolean) | undefined;
   /** The first number of a command; higher than all that this client has used before. */
   firstId?: number | undefined;
   /** Told before a number is used, so that a reload goes on behind it. */
@@ -225,8 +227,9 @@ export class Connection {
 
   private sayHello(): void {
     this.helloId = this.takeId();
-    const { name, nonce } = this.options;
-    const input = { token: this.token, client: this.client, name, nonce };
+    const { name, nonce, hadControl } = this.options;
+    const control = hadControl?.() === true ? { had_control: true } : {};
+    const input = { token: this.token, client: this.client, name, nonce, ...control };
     this.socket?.send(JSON.stringify({ id: this.helloId, do: 'hello', in: input }));
   }
 

@@ -69,6 +69,7 @@ export class Studio {
       firstId,
       usedId,
       renamed,
+      hadControl: () => this.hasControl,
       now,
       clock: () => performance.now(),
     });

@@ -71,6 +71,20 @@ test('what is typed while the server is started again is there afterwards', two,
   studio.complaints.length = 0;
 });
 
+test('who had control has it again after a restart', two, async (studio) => {
+  await typeAtEnd(studio, 'left', '# one\n');
+  const other = await openWindow(studio.t, studio.server);
+  await seen(other.button('Request control'));
+  await restarted(studio, () => studio.type('# two\n'));
+  await seen(other.page.getByText('What was typed is back'));
+  await studio.type('# three\n');
+  await until('what is typed arrives', async () =>
+    (await textOf(other, 'left')).includes('# three'),
+  );
+  await seen(other.button('Request control'));
+  studio.complaints.length = 0;
+});
+
 test(
   'a run that ended with the server is told, and is there to be opened',
   { words: ['--example', 'follow-wall'] },

@@ -1129,6 +1129,8 @@ export interface Commands {
     name?: string;
     /** made by each page load: one client with two nonces is two pages */
     nonce?: string;
+    /** when it lost its connection; after a restart it has control again, not the page that connects first */
+    had_control?: boolean;
   }; out: {
     version: string;
     /** random, of the server's life */

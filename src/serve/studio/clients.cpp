@@ -27,8 +27,16 @@ Clients::Member& Clients::enter(ClientId connection, const std::string& key,
     const Member* holder = driver();
     const bool free =
         !holder || (!holder->connection && now > holder->gone_since + kWheelAnswerWithin);
-    if (role == Role::Drive && free) driver_ = member.number;
+    if (role == Role::Drive && free) {
+        driver_ = member.number;
+        back_until_ = holder ? Time{} : now + kControlBackWithin;
+    }
     return member;
+}
+
+void Clients::take_back(const Member& member, Time now) {
+    if (member.role == Role::Drive && now < back_until_) driver_ = member.number;
+    if (drives(member)) back_until_ = {};
 }
 
 void Clients::leave(ClientId connection, Time now) {
@@ -108,6 +116,7 @@ bool Clients::ask(Member& member, Time now) {
     const Member* holder = driver();
     if (!holder || !holder->connection) {
         driver_ = member.number;
+        back_until_ = {};
         asked_.reset();
         return true;
     }
@@ -116,7 +125,10 @@ bool Clients::ask(Member& member, Time now) {
 }
 
 void Clients::answer(bool give) {
-    if (asked_ && give && is_here(asked_->member)) driver_ = asked_->member;
+    if (asked_ && give && is_here(asked_->member)) {
+        driver_ = asked_->member;
+        back_until_ = {};
+    }
     asked_.reset();
 }
 

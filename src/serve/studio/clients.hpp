@@ -19,7 +19,9 @@ using namespace std::chrono_literals;
 
 enum class Role { Look, Drive };
 
-constexpr Duration kWheelAnswerWithin = 10s;   // of a driver who is asked; then it is refused
+constexpr Duration kWheelAnswerWithin = 10s;  // of a driver who is asked; then it is refused
+// After a restart, behind the page that connected first.
+constexpr Duration kControlBackWithin = 10s;
 constexpr Duration kForgetAfter = 600s;        // a client that has gone
 constexpr size_t kAnswersKept = 200;           // of a client, for commands that come twice
 constexpr size_t kAnswerBytesKept = 4u << 20;  // of a client; the newest one in any case
@@ -78,6 +80,9 @@ public:
     bool ask(Member& member, Time now);
     void answer(bool give);
     void let_go() { driver_ = 0; }
+    // A page that has just entered had control when the server before this one ended: it has it
+    // again, if the one that has it now only came first.
+    void take_back(const Member& member, Time now);
     // Refuses what the driver did not answer. True if pages must be told.
     bool tick(Time now);
     Time next_tick() const;
@@ -91,6 +96,7 @@ private:
     std::map<ClientId, uint32_t> connections_;
     uint32_t last_ = 0;
     uint32_t driver_ = 0;
+    Time back_until_{};  // of a driver who only came first
     std::optional<Ask> asked_;
 };
 

@@ -120,6 +120,7 @@ void Desk::welcome(ClientId client, const Request& request, Role role, Time now)
     std::optional<ClientId> replaced;
     const Clients::Member& member =
         clients_.enter(client, key, request.in.value("name", "a page"), role, now, replaced);
+    if (request.in.value("had_control", false)) clients_.take_back(member, now);
     if (replaced && *replaced != client) drop(*replaced, "the same page has connected again");
     const Json out = {{"version", VAGUS_VERSION},
                       {"epoch", epoch_},

@@ -61,5 +61,29 @@ TEST(Desk, SlowIsNotGone) {
     EXPECT_EQ(f.desk.present(), 1u);
 }
 
+// A page that only looked may come back first: who typed goes on typing.
+TEST(Desk, AfterARestartThePageThatHadControlHasItAgain) {
+    Fixture f;
+    EXPECT_EQ(f.hello(1, kDrive, "looked")["ok"]["driver"], true);
+    f.now += 5s;
+    EXPECT_EQ(f.hello(2, kLook, "may only look", true)["ok"]["driver"], false);
+    EXPECT_EQ(f.hello(3, kDrive, "typed", true)["ok"]["driver"], true);
+    EXPECT_EQ(f.run(1, 2)["error"]["code"], "not_driver");
+    EXPECT_EQ(f.hello(4, kDrive, "another", true)["ok"]["driver"], false);
+}
+
+TEST(Desk, ControlThatWasGivenOrIsOldIsNotTakenBack) {
+    Fixture given;
+    given.hello(1, kDrive, "a");
+    given.say(1, {{"id", 2}, {"do", "driver.leave"}});
+    given.say(1, {{"id", 3}, {"do", "driver.ask"}});
+    EXPECT_EQ(given.hello(2, kDrive, "b", true)["ok"]["driver"], false);
+
+    Fixture old;
+    old.hello(1, kDrive, "a");
+    old.now += kControlBackWithin;
+    EXPECT_EQ(old.hello(2, kDrive, "b", true)["ok"]["driver"], false);
+}
+
 }  // namespace
 }  // namespace vagus::serve

@@ -62,10 +62,11 @@ struct Fixture {
         const auto& all = got[ClientId{number}];
         return all.empty() ? Json() : all.back();
     }
-    Json hello(uint32_t number, const char* token, const char* key) {
+    Json hello(uint32_t number, const char* token, const char* key, bool had_control = false) {
         open(number);
-        return say(number,
-                   {{"id", 1}, {"do", "hello"}, {"in", {{"token", token}, {"client", key}}}});
+        Json in = {{"token", token}, {"client", key}};
+        if (had_control) in["had_control"] = true;
+        return say(number, {{"id", 1}, {"do", "hello"}, {"in", in}});
     }
     Json run(uint32_t number, uint64_t id) {
         return say(number, {{"id", id}, {"do", "node.run"}, {"in", {{"node", 1}}}});

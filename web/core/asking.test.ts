@@ -17,6 +17,19 @@ test('the answer to a question before the last one counts no more', async () => 
   expect(asking.waits).toBe(false);
 });
 
+test('a question that is forgotten is not answered any more', async () => {
+  let answer: (chain: WhyLink[]) => void = () => {};
+  const asking = new Asking(
+    () => new Promise((resolve) => (answer = (chain) => resolve({ chain }))),
+  );
+  const asked = asking.ask({ about: 'end', name: '', t: null });
+  asking.forget();
+  answer([link('of a run that is gone')]);
+  await asked;
+  expect(asking.question).toBeNull();
+  expect(asking.chain).toBeNull();
+});
+
 test('what cannot be answered says why, and the name and the instant are left out where there are none', async () => {
   const inputs: unknown[] = [];
   const asking = new Asking((input) => {

@@ -40,6 +40,14 @@ export class Asking {
     this.changed.emit();
   }
 
+  /** The run that it was about is gone: its instants are those of another one. */
+  forget(): void {
+    this.question = null;
+    this.chain = null;
+    this.trouble = '';
+    this.changed.emit();
+  }
+
   /** The answer to a question before this one counts no more. */
   async ask(question: Question): Promise<void> {
     this.view = 'why';
@@ -64,10 +72,11 @@ export class Asking {
   }
 }
 
-export const askingOf: (studio: Studio) => Asking = deskFor(
-  (studio: Studio) =>
-    new Asking((input) => {
-      const shown = studio.past.trace;
-      return studio.send('why.ask', shown ? { ...input, trace: shown.path } : input);
-    }),
-);
+export const askingOf: (studio: Studio) => Asking = deskFor((studio: Studio) => {
+  const asking = new Asking((input) => {
+    const shown = studio.past.trace;
+    return studio.send('why.ask', shown ? { ...input, trace: shown.path } : input);
+  });
+  studio.connection.renewed.on(() => asking.forget());
+  return asking;
+});

@@ -8,6 +8,7 @@ const refusing = (nodes: number) =>
   ({
     window: createWindowStore(),
     topics: { get: () => null },
+    inTurn: (ready: Promise<unknown>, send: () => unknown) => ready.then(send),
     send: () =>
       Promise.resolve({
         failed: Array.from({ length: nodes }, (_, at) => ({ node: at + 1, why: 'is running' })),

@@ -8,9 +8,12 @@
 
 #include "serve/life/life.hpp"
 
+namespace vagus::test {}
+
 namespace vagus::serve::test {
 
-using namespace life;  // of tests only
+using namespace vagus::test;  // what tests of all modules have
+using namespace life;         // of tests only
 using State = Life::State;
 
 inline std::string word(const Action& action) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::string_view kProject =
+constexpr std::string_view kNetwork =
     "<network>\n<node nodeId=\"1\" name=\"a\">var x &lt;\n</node>\n<node name=\"b\">y\n</node>\n"
     "</network>\n";
 
@@ -48,7 +48,7 @@ TEST(Paths, OnlyWhatIsInside) {
 struct ProjectFilesTest : FilesTest {
     void SetUp() override {
         FilesTest::SetUp();
-        write("carbot/a.aesl", kProject);
+        write("carbot/a.aesl", kNetwork);
     }
 };
 
@@ -64,7 +64,7 @@ TEST_F(ProjectFilesTest, AScriptIsADocumentOfItsOwn) {
     EXPECT_EQ(files.open("carbot/a.aesl#1").value().version, 1u);  // its text did not change
     EXPECT_TRUE(files.open("carbot/a.aesl#1").value().unsaved);    // but its file did
     EXPECT_TRUE(files.save("carbot/a.aesl#2").ok());
-    std::string expected(kProject);
+    std::string expected(kNetwork);
     expected.replace(expected.find(">y") + 1, 1, "z &amp; 1");
     EXPECT_EQ(on_disk("carbot/a.aesl"), expected);
 }
@@ -422,7 +422,7 @@ TEST_F(ProjectFilesTest, OtherLinesThatChangeOnDiskAreTakenIntoAnUnsavedText) {
 TEST_F(ProjectFilesTest, AConflictIsOneOfEachScriptOfTheFile) {
     Files files(root);
     edit(files, "carbot/a.aesl#1", {{4, 5, "z"}});
-    std::string other(kProject);
+    std::string other(kNetwork);
     other.replace(other.find("var x"), 5, "var q");
     write("carbot/a.aesl", other);
     EXPECT_FALSE(files.save("carbot/a.aesl#1").ok());

@@ -7,7 +7,7 @@
 namespace vagus::serve {
 namespace {
 
-constexpr std::string_view kPlan = R"({
+constexpr std::string_view kRounds = R"({
   "format": "vagus-plan/1",
   "name": "Rounds",
   "start": {
@@ -33,7 +33,7 @@ std::string refusal(const std::string& kind, const std::string& element,
     wanted.kind = kind;
     wanted.element = element;
     wanted.outcome = outcome;
-    const plan::PlanFile file = plan::parse_plan(kPlan, "rounds.plan.json");
+    const plan::PlanFile file = plan::parse_plan(kRounds, "rounds.plan.json");
     EXPECT_TRUE(file.readable);
     const Status there = check_break_place(wanted, file.plan, library);
     if (there.ok()) return "";

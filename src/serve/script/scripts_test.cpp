@@ -12,14 +12,14 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr std::string_view kProject =
+constexpr std::string_view kPingScript =
     "<network>\n<event size=\"1\" name=\"ping\"/>\n<constant value=\"5\" name=\"LIMIT\"/>\n"
     "<node nodeId=\"1\" name=\"left\">var x = LIMIT\nonevent tick\n  x++\n  emit ping x\n</node>\n"
     "<node nodeId=\"2\" name=\"right\">var x\nonevent ping\n  x = LIMIT\n</node>\n</network>\n";
 
 struct ScriptsTest : testing::Test {
     void SetUp() override {
-        std::ofstream(root / "a.aesl") << kProject;
+        std::ofstream(root / "a.aesl") << kPingScript;
         std::ofstream(root / "plain.aesl") << "onevent tick\nemit hello\n";
         files = std::make_unique<Files>(root);
         scripts = std::make_unique<Scripts>(*files, [](const std::string& name, uint16_t) {
@@ -112,7 +112,7 @@ TEST_F(ScriptsTest, WhatCannotBeRenamedSaysWhy) {
     EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "x", "me").error().what, HasSubstr("declares"));
     EXPECT_THAT(scripts->rename("a.aesl#1", {4, 8}, "while", "me").error().what,
                 HasSubstr("is no name"));
-    EXPECT_EQ(text("a.aesl"), kProject);
+    EXPECT_EQ(text("a.aesl"), kPingScript);
 }
 
 TEST_F(ScriptsTest, EventsAndConstantsComeAndGo) {

@@ -10,8 +10,11 @@
 #include "serve/json.hpp"
 #include "serve/studio/desk.hpp"
 
+namespace vagus::test {}
+
 namespace vagus::serve::test {
 
+using namespace vagus::test;  // what tests of all modules have
 using namespace std::chrono_literals;
 
 constexpr const char* kDrive = "0123456789abcdef";

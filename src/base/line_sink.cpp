@@ -9,6 +9,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "base/log_lines.hpp"
@@ -51,9 +53,20 @@ void take_back(int descriptor, size_t count) {
     if (::ftruncate(descriptor, end - back) == 0) ::lseek(descriptor, end - back, SEEK_SET);
 }
 
+// A file that is there, and begins otherwise.
+bool is_another(const std::string& path, std::string_view begins) {
+    std::error_code ignored;
+    if (begins.empty() || !std::filesystem::is_regular_file(path, ignored)) return false;
+    std::string found(begins.size(), '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(found.data(), static_cast<std::streamsize>(found.size()));
+    const auto got = static_cast<size_t>(file.gcount());
+    return got > 0 && !begins.starts_with(std::string_view(found).substr(0, got));
+}
+
 }  // namespace
 
-Result<LineSink> LineSink::open(const std::string& path, When when) {
+Result<LineSink> LineSink::open(const std::string& path, When when, std::string_view begins) {
     LineSink sink;
     sink.when_ = when;
     sink.name_ = path == "-" ? "standard output" : path;
@@ -62,6 +75,12 @@ Result<LineSink> LineSink::open(const std::string& path, When when) {
         sink.descriptor_ = STDOUT_FILENO;
         sink.terminal_ = ::isatty(STDOUT_FILENO) == 1;
         return sink;
+    }
+    if (is_another(path, begins)) {
+        return Error{Code::Refused,
+                     fmt::format("{}: is there already, and is something else: what "
+                                 "is written there begins with {}; name another file",
+                                 path, begins)};
     }
     const int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
     sink.descriptor_ = ::open(path.c_str(), flags, 0666);

@@ -34,7 +34,9 @@ public:
     LineSink();  // nowhere
     // A new file (what was in it is gone), "-" for stdout, nowhere for an empty path. The Error
     // names the file and the system's reason. On a terminal lines are escaped (visible_lines).
-    static Result<LineSink> open(const std::string& path, When when);
+    // `begins`: how such files begin. One that begins otherwise is refused: it is no older one, but
+    // a plan, a script, whose name was typed in the wrong place.
+    static Result<LineSink> open(const std::string& path, When when, std::string_view begins = {});
     // Writes what waits.
     ~LineSink();
     LineSink(LineSink&& other) noexcept;

@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "base/file.hpp"
@@ -105,6 +106,21 @@ TEST_F(LineSinkTest, AFileThatCannotBeOpenedIsNamedWithTheReason) {
     EXPECT_EQ(error(path("none/f")),
               path("none/f") + ": cannot be written: No such file or directory");
     EXPECT_EQ(error(folder_.string()), folder_.string() + ": cannot be written: Is a directory");
+}
+
+TEST_F(LineSinkTest, AFileThatBeginsOtherwiseIsNotReplaced) {
+    const auto open = [this] { return LineSink::open(path("f"), When::AtOnce, "{\"t\":"); };
+    std::ofstream(path("f")) << "{ \"format\": \"vagus-plan/1\" }\n";
+    EXPECT_EQ(open().error().what,
+              path("f") +
+                  ": is there already, and is something else: what is written there begins with "
+                  "{\"t\":; name another file");
+    EXPECT_EQ(written(), "{ \"format\": \"vagus-plan/1\" }\n");
+    for (const char* const older : {"", "{\"t\":0.1}\n", "{\"t"}) {
+        std::ofstream(path("f")) << older;
+        EXPECT_TRUE(open().ok()) << older;
+        EXPECT_EQ(written(), "");
+    }
 }
 
 TEST_F(LineSinkTest, AFullDiskIsSaidOnceAndKept) {

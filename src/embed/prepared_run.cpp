@@ -17,6 +17,7 @@
 #include "embed/plan_bus.hpp"
 #include "embed/world_pace.hpp"
 #include "net/links.hpp"
+#include "plan/trace.hpp"
 #include "run/execution.hpp"
 #include "run/firing.hpp"
 #include "run/traced_variables.hpp"
@@ -165,8 +166,8 @@ Status PreparedRun::Insides::open_sinks() {
     // In real time what a run did is there even if the process is killed.
     const auto when =
         words.clock == "virtual" ? LineSink::When::WithinASecond : LineSink::When::AtOnce;
-    sink = TRY(LineSink::open(words.trace, when));
-    sink_all = TRY(LineSink::open(words.trace_all, when));
+    sink = TRY(LineSink::open(words.trace, when, plan::kTraceBegins));
+    sink_all = TRY(LineSink::open(words.trace_all, when, plan::kTraceBegins));
     return Status::done();
 }
 

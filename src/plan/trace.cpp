@@ -117,7 +117,8 @@ std::string_view name_of(PlanResult result) {
 }
 
 std::string format_trace(const TraceEvent& event, std::string_view robot) {
-    std::string line = "{\"t\":" + seconds_text(event.at);
+    std::string line(kTraceBegins);
+    line += seconds_text(event.at);
     if (!robot.empty()) line += ",\"robot\":" + json_quote(robot);
     line += ",\"plan\":" + json_quote(event.plan);
     std::visit(Members(line), event.what);

@@ -82,6 +82,8 @@ struct TraceEvent {
     uint32_t frame = 0;  // number of the frame of a bus that it follows from, where frames have one
 };
 
+constexpr std::string_view kTraceBegins = "{\"t\":";
+
 // One line of JSON, without the newline. With a robot, where there are several with plans, the line
 // names it.
 std::string format_trace(const TraceEvent& event, std::string_view robot = {});

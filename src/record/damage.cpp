@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/shell_word.hpp"
+
 namespace vagus::record {
 
 Status check_read(const mcap::Cursor& cursor, const mcap::Reader& reader) {
@@ -9,7 +11,7 @@ Status check_read(const mcap::Cursor& cursor, const mcap::Reader& reader) {
     return Error{Code::BadInput,
                  fmt::format("{}; write that to a file of its own, by `vagus replay {} --repair "
                              "WHOLE.mcap`",
-                             cursor.trouble()->what, reader.name())};
+                             cursor.trouble()->what, shell_word(reader.name()))};
 }
 
 }  // namespace vagus::record

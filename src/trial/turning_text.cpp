@@ -6,6 +6,7 @@
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "base/shell_word.hpp"
 
 namespace vagus::trial {
 
@@ -83,7 +84,8 @@ std::string describe_recordings(const TurningTold& told) {
     std::string text =
         line("with", told.with, turn.with) + line("without", told.without, turn.without);
     if (!told.with.empty() && !told.without.empty()) {
-        text += fmt::format("  vagus compare {} {}\n", told.with, told.without);
+        text +=
+            fmt::format("  vagus compare {} {}\n", shell_word(told.with), shell_word(told.without));
     }
     return text;
 }

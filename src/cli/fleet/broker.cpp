@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "cli/fleet/process.hpp"
 #include "cli/options.hpp"
@@ -239,8 +240,8 @@ int init(const BrokerOptions& options) {
     }
     print(
         fmt::format("{0}: ca.crt is for everybody, NAME.login for the one of that name.\n"
-                    "Next: vagus fleet serve {0}\n",
-                    options.folder));
+                    "Next: vagus fleet serve {1}\n",
+                    options.folder, shell_word(options.folder)));
     return kExitDone;
 }
 
@@ -324,9 +325,9 @@ int serve_broker(const std::string& folder, const std::vector<std::string>& flee
     const std::string file = (fs::absolute(folder) / "mosquitto.conf").string();
     const auto configuration = read_file(file);
     if (!configuration.ok()) {
-        return complain(
-            configuration.error().what + "; make one with `vagus fleet init " + folder + "`",
-            kExitUsage);
+        return complain(configuration.error().what + "; make one with `vagus fleet init " +
+                            shell_word(folder) + "`",
+                        kExitUsage);
     }
     if (const Status good = check_fleets(fleets); !good.ok()) {
         return complain(good.error(), kExitUsage);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/shell_word.hpp"
 #include "cli/live_screen.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -153,7 +154,7 @@ int format(const FormatOptions& options) {
         if (same) return kExitDone;
         return complain(
             fmt::format("{} is not in the saved form; `vagus plan format -w {}` fixes that",
-                        options.file, options.file));
+                        options.file, shell_word(options.file)));
     }
     if (!options.write) {
         print_file(formatted.value());

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/shell_word.hpp"
 #include "fleet/topic.hpp"
 #include "net/wall_clock.hpp"
 #include "serve/broker/mosquitto_link.hpp"
@@ -21,7 +22,7 @@ Result<std::unique_ptr<fleet::Link>> connect(serve::FleetOptions broker, const s
             return Error{Code::NotFound,
                          fmt::format("{}: there is no such login; `vagus fleet init {} --robot {}` "
                                      "makes it (t1..t30: thirty of them)",
-                                     broker.login, logins, member.robot)};
+                                     broker.login, shell_word(logins), member.robot)};
         }
     }
     serve::LinkOptions link =

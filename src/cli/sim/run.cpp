@@ -21,6 +21,7 @@
 #include "embed/robots_run.hpp"
 #include "net/end_signal.hpp"
 #include "net/links.hpp"
+#include "plan/trace.hpp"
 #include "record/sim_recording.hpp"
 #include "serve/field/world_versions.hpp"
 #include "session/safe_stop.hpp"
@@ -144,7 +145,7 @@ Status SimRun::open_trace() {
     // On stdout, a line appears at once: another program may be reading.
     const auto when =
         options_.trace == "-" ? LineSink::When::AtOnce : LineSink::When::WithinASecond;
-    trace_ = TRY(LineSink::open(options_.trace, when));
+    trace_ = TRY(LineSink::open(options_.trace, when, plan::kTraceBegins));
     return Status::done();
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "base/seconds.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "cli/output.hpp"
 #include "cli/test/pool.hpp"
@@ -123,13 +124,13 @@ private:
         const auto again = TRY(run_with(least.faults, recording));
         const trial::SeedResult seed{.seed = try_.seed, .outcome = again};
         text += trial::describe_failure(try_.result->test, seed) + "\n";
-        text += fmt::format("  vagus replay {} --until {}\n", recording,
+        text += fmt::format("  vagus replay {} --until {}\n", shell_word(recording),
                             plan::text_of(seconds_of(again.failed_at())));
         const std::string test = TRY(read_file(try_.result->test.path));
         const std::string made =
             TRY(trial::with_chaos(try_.result->test, test, {try_.seed, least.faults}, file));
         TRY(write_file(file, made));
-        text += fmt::format("  vagus test {}\n", file);
+        text += fmt::format("  vagus test {}\n", shell_word(file));
         return Status::done();
     }
 

@@ -10,6 +10,7 @@
 
 #include "base/file.hpp"
 #include "base/seconds.hpp"
+#include "base/shell_word.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/test/chaos.hpp"
@@ -236,7 +237,7 @@ private:
 
     static std::string commands_for(const trial::SeedResult& seed) {
         const Time first = seed.outcome.failed_at();
-        return fmt::format("  vagus replay {} --until {}\n", seed.recording,
+        return fmt::format("  vagus replay {} --until {}\n", shell_word(seed.recording),
                            plan::text_of(seconds_of(first)));
     }
 

@@ -244,7 +244,9 @@ void Documents::text_changed(const std::string& path) {
     const auto listed = unsaved_.find(path);
     const bool same = listed != unsaved_.end() && listed->second && files_.is_unsaved(path) &&
                       files_.exists(path);
-    if (!same) desk_.topics().touch("files");
+    if (same) return;
+    desk_.topics().touch("files");
+    desk_.topics().touch("studio");  // it names the texts of an earlier session that are not saved
 }
 
 void Documents::project_changed() {

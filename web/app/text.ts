@@ -601,6 +601,7 @@ export const text = {
     fault: (what: string, line: number | undefined) =>
       `The node stopped${line === undefined ? '' : ` at line ${line}`}: ${what}`,
     disk: 'The file changed on disk.',
+    noText: (why: string) => `The file changed on disk, and cannot be shown: ${why}.`,
     mine: 'Keep mine',
     theirs: 'Use the file',
     both: 'Keep both',

@@ -183,6 +183,23 @@ test('a file that changes on disk is never overwritten', two, async (studio) => 
   assert.ok(readFileSync(path, 'utf8').includes('= 7'));
 });
 
+test('a file that is no text any more is not offered in place of the text', two, async (studio) => {
+  const { page, button, press, place } = studio;
+  const path = join(place, 'two.aesl');
+  const text = readFileSync(path, 'utf8');
+  await studio.tab(/^left/).click();
+  await seen(studio.editor('left'));
+  writeFileSync(path, Buffer.from([0xff, 0x00]));
+  const notice = page.getByRole('status').filter({ hasText: 'cannot be shown' });
+  await seen(notice.getByText('is no text in UTF-8 any more'));
+  assert.deepEqual(await notice.getByRole('button').allInnerTexts(), ['Keep mine']);
+  await button('Keep mine').click();
+  await notice.waitFor({ state: 'detached' });
+  await studio.editor('left').click();
+  await press('Control+s');
+  await until('the text is on disk again', () => readFileSync(path, 'utf8') === text);
+});
+
 test('both are kept by one click where the file changed the same line', two, async (studio) => {
   const { page, button, press, place } = studio;
   const path = join(place, 'two.aesl');

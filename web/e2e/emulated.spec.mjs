@@ -1,7 +1,7 @@
 // Emulated microcontrollers on the desk: a Cortex-M0 and an AVR are programmed, broken into and stepped like any node.
 import { aesl, makeProject } from './support/robots.mjs';
 import { startProgram, vagusProgram } from './support/server.mjs';
-import { reads, seen, test, until } from './support/studio.mjs';
+import { seen, test, until } from './support/studio.mjs';
 /** @import { Studio, TestContext } from './support/studio.mjs' */
 
 const script = `var n = 0
@@ -46,13 +46,18 @@ async function breakAndStep(/** @type {Studio} */ studio, /** @type {string} */ 
   await editor(name).click();
   await press('Control+Home', 'ArrowDown', 'ArrowDown', 'ArrowDown', 'F9');
   await seen(page.getByText(`${name} paused at line 4`));
+  const word = async (/** @type {string} */ of) =>
+    Number(await page.getByTitle(`Change ${of}`).innerText());
+  const before = await word('leds');
   await press('F10');
   await seen(page.getByText(`${name} paused at line 5`));
-  const n = await page.getByTitle('Change n').innerText();
   // Each pause puts the caret at its line: the keys below come after the last one.
   await press('F10');
   await seen(page.getByText(`${name} paused at line 4`));
-  await reads(page.getByTitle('Change leds'), n);
+  await until('leds is n', async () => {
+    const leds = await word('leds');
+    return leds > before && leds === (await word('n'));
+  });
   await press('F10');
   await seen(page.getByText(`${name} paused at line 5`));
   // Continues: the breakpoint is deleted.

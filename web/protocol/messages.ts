@@ -2091,6 +2091,8 @@ export interface Topics {
     disk: boolean;
     /** while disk is true: which file that is; another one after somebody else wrote it again */
     disk_hash?: string;
+    /** why what is there is no text that can be shown or taken */
+    disk_no_text?: string;
     /** the file is not on disk; saving makes it again */
     gone: boolean;
     /** the file was renamed: what the document is now */
@@ -2586,7 +2588,7 @@ export const topicTable: Readonly<Record<TopicName, { kind: 'document' | 'stream
   'start': { kind: 'document', is: { examples: '[Example; 200]', recent: '[Recent; 20]' } },
   'targets': { kind: 'document', is: { found: '[Found; 200]' } },
   'files': { kind: 'document', is: { files: '[FileEntry; 2000]', more: 'bool' } },
-  'doc': { kind: 'document', is: { epoch: 'line(32)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', ends: 'word(lf|crlf|mixed)', unsaved: 'bool', by: 'line(64)', disk: 'bool', disk_hash: 'line(16)?', gone: 'bool', moved: 'Doc?' } },
+  'doc': { kind: 'document', is: { epoch: 'line(32)', version: 'int(0..4294967295)', language: 'word(aesl|aesl-file|plan|world|toolbox|json|text)', ends: 'word(lf|crlf|mixed)', unsaved: 'bool', by: 'line(64)', disk: 'bool', disk_hash: 'line(16)?', disk_no_text: 'line(1000)?', gone: 'bool', moved: 'Doc?' } },
   'findings': { kind: 'document', is: { findings: '[Finding; 2000]', more: 'int(0..1000000)', versions: '{int(0..4294967295); 2000}' } },
   'templates': { kind: 'document', is: { toolboxes: '[PlanToolbox; 200]', formulas: '[FormulaWord; 200]' } },
   'script': { kind: 'document', is: { version: 'int(0..4294967295)', good: 'bool', node: 'Name', for: 'line(200)', bytecode: 'Meter', variables: 'Meter', stack: 'Meter', handlers: '[Handler; 1000]', code_lines: '[int(1..10000000); 65536]' } },

@@ -4,11 +4,14 @@
 
 #include "serve/edit/json_patch.hpp"
 #include "serve/edit/seen.hpp"
+#include "serve/edit/text_places.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
 
 namespace {
+
+constexpr size_t kReasonMax = 1000;  // bytes, as in the protocol
 
 std::vector<TextChange> changes_of(const Json& list) {
     std::vector<TextChange> changes;
@@ -216,6 +219,7 @@ Json Documents::doc_document(const Json& of) {
                  {"gone", state.gone},
                  {"disk", state.conflict}};
     if (state.conflict) json["disk_hash"] = state.disk_hash;
+    if (!state.no_text.empty()) json["disk_no_text"] = line_of(state.no_text, kReasonMax);
     if (moved) json["moved"] = *moved;
     return json;
 }

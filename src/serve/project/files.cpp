@@ -289,6 +289,7 @@ DocumentState Files::state_of(const Opened& opened) const {
             .by = updates.by(),
             .conflict = file.conflict.has_value(),
             .disk_hash = file.conflict ? fmt::format("{:016x}", hash_of(file.conflict->bytes)) : "",
+            .no_text = file.conflict ? file.conflict->why_no_text : "",
             .gone = file.gone};
 }
 

@@ -50,6 +50,7 @@ struct DocumentState {
     std::string by;         // who changed it last: Update::by
     bool conflict = false;  // the file changed on disk where the text is unsaved
     std::string disk_hash;  // of what it has there then
+    std::string no_text;    // why that cannot be shown or taken; empty: it can
     bool gone = false;      // the file is not on disk
 };
 

@@ -440,6 +440,7 @@ TEST_F(ProjectFilesTest, WhatIsNoTextAnyMoreIsNotOverwritten) {
     EXPECT_FALSE(files.save("note.txt").ok());
     EXPECT_EQ(on_disk("note.txt"), "\xff\xfe");
     EXPECT_THAT(files.disk_text("note.txt").error().what, HasSubstr("no text in UTF-8"));
+    EXPECT_THAT(files.state("note.txt").value().no_text, HasSubstr("no text in UTF-8"));
     EXPECT_FALSE(files.revert("note.txt", "me").ok());
     EXPECT_TRUE(files.keep_mine("note.txt").ok());
     EXPECT_TRUE(files.save("note.txt").ok());

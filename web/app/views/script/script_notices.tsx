@@ -58,7 +58,7 @@ export function DiskNotice({ doc, more }: { doc: Doc; more?: ReactNode }) {
   if (state?.gone && state.version === 0) return <Line error>{words.onlyHere}</Line>;
   if (state?.gone) return <Line>{words.gone}</Line>;
   if (!state?.disk) return problem === undefined ? null : <Line error>{problem}</Line>;
-  const { disk_hash } = state;
+  const { disk_hash, disk_no_text: noText } = state;
   const isText = kTexts.includes(state.language);
   // Where only one can be kept, it is chosen by looking at both.
   const compares = compare ?? !isText;
@@ -66,15 +66,24 @@ export function DiskNotice({ doc, more }: { doc: Doc; more?: ReactNode }) {
     void studio
       .change('doc.keep', { doc, which, disk_hash }, doc)
       .catch((problem: unknown) => studio.tell(problem));
+  const mine = (
+    <Button small disabled={!drives} onClick={keep('mine')}>
+      {words.mine}
+    </Button>
+  );
+  if (noText !== undefined)
+    return (
+      <Line error end={mine}>
+        {words.noText(noText)}
+      </Line>
+    );
   const end = (
     <>
       {more}
       <Button small kind="plain" aria-expanded={compares} onClick={() => setCompare(!compares)}>
         {compares ? words.hide : words.compare}
       </Button>
-      <Button small disabled={!drives} onClick={keep('mine')}>
-        {words.mine}
-      </Button>
+      {mine}
       <Button small disabled={!drives} onClick={keep('disk')}>
         {words.theirs}
       </Button>

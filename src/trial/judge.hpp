@@ -30,8 +30,8 @@ public:
     // All are borrowed; conditions are bound (Condition::bind).
     Judge(const TestFile& test, const plan::Graph& graph, session::PlanWorld* world);
 
-    // The first word of a node that a condition names and that is not there.
-    Status check() const;
+    // The first word of a node that its condition names and that is not there.
+    Status check(const Expectation& one) const;
     void line(const plan::TraceEvent& event);
     void instant();
     // One for each expectation, in their order.

@@ -90,7 +90,7 @@ class Trials(unittest.TestCase):
 
     def test_words_that_are_not_there_are_refused(self):
         self.write({"always": "node('drve', 'speed') > 0"})
-        self.assertIn("the robot has no node \"drve\"; did you mean drive?", self.run_test(status=2))
+        self.assertRegex(self.run_test(status=2), r'test\.json:\d+:\d+: .*the robot has no node "drve"; did you mean drive\?')
         self.write({"always": "node('bumper', 'touch.sectors[12]') > 0"})
         self.assertIn("\"touch.sectors\" has 12 elements, counted from 0", self.run_test(status=2))
 

@@ -123,12 +123,12 @@ void FileTape::work() {
     bool last = false;
     size_t known = 0;  // of the topics
     Waiting taken;
-    while (!last) {
+    for (auto patience = kFirstFlush; !last; patience = kFlushEvery) {
         std::vector<Topic> declared;
         uint64_t flush = 0;
         {
             std::unique_lock lock(mutex_);
-            more_.wait_for(lock, kFlushEvery, [this] {
+            more_.wait_for(lock, patience, [this] {
                 return over_ || waiting_bytes_ >= kWakeAt || flush_wanted_ != flush_done_;
             });
             std::swap(taken, waiting_);

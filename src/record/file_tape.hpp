@@ -34,6 +34,9 @@ constexpr size_t kDropFrom = 64u << 20;     // bytes that wait
 constexpr size_t kWaitingMax = 256u << 20;  // the same
 constexpr size_t kWakeAt = 64u << 10;       // the thread begins then: little is lost with a run
 constexpr std::chrono::milliseconds kFlushEvery{1000};
+// What kind of run it is does not wait so long: without it, what a killed one leaves can never be
+// run again.
+constexpr std::chrono::milliseconds kFirstFlush{50};
 
 enum class Pace { NeverWaits, Waits };
 

@@ -109,6 +109,7 @@ class AWorldUnderAHand(Case):
 
         self.open(make)
         self.wait_node(described=True)
+        self.wait(lambda: "opening" in self.scene.value, "the world")
         opening = self.scene.value["opening"]
         self.assertGreater(self.ground(), 500)
         self.page.do("run.reset")

@@ -240,6 +240,10 @@ test(
     await layout('Present');
     await layout('Script');
     await command('New plan');
+    const name = page.getByRole('textbox', { name: 'Name of the new file' });
+    await until('the keyboard is there', () =>
+      name.evaluate((field) => field === document.activeElement),
+    );
     await type('Mine');
     await press('Enter');
     await shows(page, 'Mine');

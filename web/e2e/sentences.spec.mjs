@@ -18,6 +18,16 @@ test('the sentence below the last line comes into sight', thymio, async (studio)
   });
 });
 
+test('a sentence that more of its line does not change comes, too', thymio, async (studio) => {
+  const { page, press, type, editor } = studio;
+  await editor('thymio-II').click();
+  await press('Control+End');
+  await type('\nmotor.left.targ');
+  await seen(page.getByRole('button', { name: '1 error' }));
+  await type(' = 1');
+  await seen(page.getByRole('note').filter({ hasText: 'motor.left.target' }));
+});
+
 test('a list of completions goes when a keyword is complete', thymio, async (studio) => {
   const { page, press, type, editor } = studio;
   await editor('thymio-II').click();

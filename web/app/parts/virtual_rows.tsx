@@ -41,10 +41,13 @@ export function VirtualRows<Row>({
     (index: number) => {
       setActive(index);
       showRow(frame.current, index, height);
-      // The row may have to be drawn first.
-      requestAnimationFrame(() =>
-        frame.current?.querySelector<HTMLElement>(`[data-row="${index}"]`)?.focus(),
-      );
+      const focus = () => {
+        const row = frame.current?.querySelector<HTMLElement>(`[data-row="${index}"]`);
+        row?.focus();
+        return row !== undefined && row !== null;
+      };
+      // At once, so that the next key is pressed there; a row out of sight has to be drawn first.
+      if (!focus()) requestAnimationFrame(focus);
     },
     [height],
   );

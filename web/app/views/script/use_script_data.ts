@@ -5,7 +5,14 @@ import { toggleComment } from '@codemirror/commands';
 import { startCompletion } from '@codemirror/autocomplete';
 import { openSearchPanel } from '@codemirror/search';
 import { useCallback, useEffect, useMemo, useState } from 'react';
-import type { Breakpoint, Doc, Handler, HistoryNode, Node } from '../../../protocol/messages';
+import type {
+  Breakpoint,
+  Doc,
+  Finding,
+  Handler,
+  HistoryNode,
+  Node,
+} from '../../../protocol/messages';
 import { wordAt } from '../../../core/help/entries';
 import { logLinesOf, type LogLine } from '../../../core/log_lines';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
@@ -37,8 +44,7 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   const settings = useSettings();
   const mayEdit = useMayEdit();
   const script = useTopic('script', isScript ? { doc } : null);
-  const all = useTopic('findings', {})?.findings;
-  const findings = useMemo(() => all?.filter((one) => one.doc === doc) ?? [], [all, doc]);
+  const told = useToldFindings(doc);
   const breakpoints = useTopic('breakpoints', {})?.breakpoints;
   const logs = logLinesOf(studio);
   useChanges(logs.changed);
@@ -48,8 +54,12 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   useEffectIn(
     view,
     useCallback(
-      () => setFindings.of({ findings, onFix: (finding, fix) => pressFix(studio, finding, fix) }),
-      [studio, findings],
+      () =>
+        setFindings.of({
+          findings: told.findings,
+          onFix: (finding, fix) => pressFix(studio, finding, fix),
+        }),
+      [studio, told],
     ),
   );
   useEffectIn(
@@ -75,6 +85,17 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   useStandingIn(doc, isScript, view);
   useRevealIn(doc, view);
   useHandle(doc, view);
+}
+
+/** Told anew for each version that was checked: the same findings are about another text then. */
+function useToldFindings(doc: Doc): { findings: readonly Finding[]; version: number | undefined } {
+  const topic = useTopic('findings', {});
+  const all = topic?.findings;
+  const version = topic?.versions[doc];
+  return useMemo(
+    () => ({ findings: all?.filter((one) => one.doc === doc) ?? [], version }),
+    [all, doc, version],
+  );
 }
 
 /** Letters and colours, as they are set. */

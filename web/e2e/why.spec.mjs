@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { runTo } from './support/runs.mjs';
 import { vagusProgram } from './support/server.mjs';
-import { reads, seen, test, until } from './support/studio.mjs';
+import { focused, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
 
 const wall = { words: ['--example', 'follow-wall'] };
@@ -61,6 +61,7 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   await press('Shift+N', 'w');
   const wheels = await answered(page, /^Why do the wheels of carbot turn as they do\? now/);
   assert.match(wheels[0] ?? '', /the script of drive called drive\./);
+  await focused(links(page).first());
   // By the button below the drawing; the run is paused at the instant at which the actor begins.
   await studio.button('Why findWallAngle?').click();
   const begun = await answered(page, /^Why is findWallAngle active, or why did it end\?/);

@@ -16,7 +16,12 @@ export function Chain({ chain }: { chain: readonly WhyLink[] }) {
         {chain.map((link, index) => (
           // Nothing else tells two of the same instant apart, and a chain never changes.
           <li key={index}>
-            <Row link={link} earlier={chain[index + 1]} onOpen={() => open(studio, link)} />
+            <Row
+              link={link}
+              isFirst={index === 0}
+              earlier={chain[index + 1]}
+              onOpen={() => open(studio, link)}
+            />
           </li>
         ))}
       </ol>
@@ -24,14 +29,21 @@ export function Chain({ chain }: { chain: readonly WhyLink[] }) {
   );
 }
 
-function Row(props: { link: WhyLink; earlier: WhyLink | undefined; onOpen(): void }) {
-  const { link, earlier, onOpen } = props;
+interface RowProps {
+  link: WhyLink;
+  isFirst: boolean;
+  earlier: WhyLink | undefined;
+  onOpen(): void;
+}
+
+function Row({ link, isFirst, earlier, onOpen }: RowProps) {
   const { t, what, value, place } = link;
   return (
     <button
       type="button"
       className={link.root ? 'because__link is-root' : 'because__link'}
       data-inset
+      data-autofocus={isFirst || undefined}
       onClick={onOpen}
     >
       <span className="because__dot" aria-hidden />

@@ -59,7 +59,7 @@ function Because({ asking }: { asking: Asking }) {
       </Blank>
     );
   return (
-    <div className="because" ref={frame} tabIndex={-1} data-autofocus>
+    <div className="because" ref={frame} tabIndex={-1} data-autofocus={chain ? undefined : true}>
       <Head question={question} chain={chain} />
       {asking.waits ? (
         <p className="because__note" role="status">

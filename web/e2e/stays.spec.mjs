@@ -2,7 +2,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { isDeepStrictEqual } from 'node:util';
 import { makeProject } from './support/robots.mjs';
+import { runTo } from './support/runs.mjs';
 import { boxOf, gone, openWindow, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio, TestContext } from './support/studio.mjs' */
 
@@ -205,6 +207,22 @@ test(
     await page.reload();
     await seen(plan);
     await until('a reload shows the same place', async () => (await viewed(page)) === mine);
+  },
+);
+
+test(
+  'a plan that is paused stays at its place over a reload, too',
+  { words: ['--example', 'follow-wall'] },
+  async (studio) => {
+    const { page } = studio;
+    await runTo(studio, 'findWallAngle');
+    await lookElsewhere(studio);
+    const mine = await settled(page);
+    await page.reload();
+    await seen(page.getByText('Paused by the breakpoint findWallAngle'));
+    await until('a reload shows the same place', async () =>
+      isDeepStrictEqual(await settled(page), mine),
+    );
   },
 );
 

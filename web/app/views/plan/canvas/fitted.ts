@@ -66,6 +66,8 @@ export function useFitted(board: PlanBoard, frame: React.RefObject<HTMLElement |
     if (worksOn.current && !presents) views.keep(doc, moved({ x, y, zoom }, inset.current, 1));
   }, [store, views, doc, presents]);
   const work = useCallback(() => {
+    // A plan that is paused shows its active actor before the canvas is where it was left.
+    if (corner.current === null) return;
     worksOn.current = true;
     keep();
   }, [keep]);

@@ -161,3 +161,16 @@ test(
     assert.ok(Math.abs(at.x + at.width / 2 - end.x) < 16, 'it is where the finger left it');
   },
 );
+
+test(
+  'a long name leaves the buttons of its row in the panel',
+  { ...tablet, words: ['--example', 'thymio'] },
+  async ({ page, layout }) => {
+    await layout('Script');
+    const list = page.getByRole('list', { name: 'Variables' });
+    const plot = list.getByRole('button', { name: 'Plot prox.ground.reflected' });
+    await seen(plot);
+    const { x, width } = await boxOf(plot);
+    assert.ok(x + width <= tablet.width, `it ends at ${x + width}`);
+  },
+);

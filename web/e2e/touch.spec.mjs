@@ -163,13 +163,15 @@ test(
 );
 
 test(
-  'a long name leaves the buttons of its row in the panel',
+  'a row of variables shows its name whole, and its buttons inside of the panel',
   { ...tablet, words: ['--example', 'thymio'] },
   async ({ page, layout }) => {
     await layout('Script');
     const list = page.getByRole('list', { name: 'Variables' });
+    const name = list.getByText('prox.ground.reflected');
+    await seen(name);
+    assert.ok(await name.evaluate((one) => one.scrollWidth <= one.clientWidth), 'it is cut off');
     const plot = list.getByRole('button', { name: 'Plot prox.ground.reflected' });
-    await seen(plot);
     const { x, width } = await boxOf(plot);
     assert.ok(x + width <= tablet.width, `it ends at ${x + width}`);
   },

@@ -17,6 +17,12 @@ export function usePastTime(): number | null {
   return usePastPart(() => past.at);
 }
 
+/** That instant is what is shown; its answer may not have come yet. */
+export function useIsPastShown(): boolean {
+  const { past } = useStudio();
+  return usePastPart(() => past.shown === past.at);
+}
+
 /** The name of the trace that is open as a file; null: it is a run that is looked at. */
 export function useTraceName(): string | null {
   const { past } = useStudio();

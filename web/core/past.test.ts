@@ -41,7 +41,10 @@ describe('the past', () => {
     expect(asked.map(({ input }) => input.t)).toEqual([50]);
     await asked[0]?.answer();
     expect(past.instant?.t).toBe(50);
+    expect(past.shown).toBe(50);
     expect(asked.map(({ input }) => input.t)).toEqual([50, 52]);
+    await asked[1]?.answer();
+    expect(past.shown).toBe(past.at);
   });
 
   it('stays within what is kept', () => {

@@ -43,6 +43,8 @@ export class Past {
   readonly failed = new Emitter<unknown>();
   /** The cursor, in seconds; null: now. */
   at: number | null = null;
+  /** The instant of which views have the answer: that of before, until the new one has come. */
+  shown: number | null = null;
   /** What came of it last; null until then. */
   instant: Instant | null = null;
   /** Its plan; null: none ran. */
@@ -145,7 +147,7 @@ export class Past {
     this.asking = true;
     try {
       const instant = await this.connection.send('history.at', this.input(t, kPastEvents));
-      if (this.at !== null) this.show(instant);
+      if (this.at !== null) this.show(instant, t);
     } catch (problem) {
       this.failed.emit(problem);
     }
@@ -162,8 +164,9 @@ export class Past {
     return { t, events, ranges: this.ranges(), ...sights, ...trace };
   }
 
-  private show(instant: Instant): void {
+  private show(instant: Instant, t: number): void {
     this.instant = instant;
+    this.shown = t;
     const { plan } = instant;
     const good = plan !== undefined && misfit(plan, topicTable.plan.is ?? {}) === '';
     this.plan = good ? (plan as unknown as PlanThen) : null;
@@ -180,6 +183,7 @@ export class Past {
 
   private forget(): void {
     this.instant = null;
+    this.shown = null;
     this.plan = null;
     this.words = new Map();
     this.changed.emit();

@@ -93,6 +93,21 @@ test('the robot bumped: back, another threshold, and on from there', wall, async
   assert.ok(first >= at, `the runs part at ${first} s, not before ${at} s`);
 });
 
+test('without its server no instant is claimed that is not shown', wall, async (studio) => {
+  const { page, press, server } = studio;
+  await runTo(studio, 'findWallAngle');
+  const at = await back(studio, 1);
+  await reads(bar(page), new RegExp(`Everything shows ${at.toFixed(3)} s`));
+  await server.program.stop('SIGKILL');
+  await seen(page.getByText(/^Lost the studio/));
+  await press('ArrowLeft');
+  await reads(
+    bar(page),
+    new RegExp(`${(at - 0.02).toFixed(3)} s is shown when the studio is back`),
+  );
+  studio.complaints.length = 0; // of a server that does not answer
+});
+
 test('a run becomes a test, which passes', wall, async (studio) => {
   const { page, press, server } = studio;
   await runTo(studio, 'parallelToWall');

@@ -3,6 +3,7 @@ export const pastWords = {
   label: 'Looking back',
   ago: (seconds: string) => `${seconds} s ago.`,
   everything: (at: string) => `Everything shows ${at} s.`,
+  waits: (at: string) => `${at} s is shown when the studio is back.`,
   meanwhile: {
     runs: 'The run continues; nothing here changes it.',
     paused: 'The run is paused; nothing here changes it.',

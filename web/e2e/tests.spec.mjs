@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
 import { root, vagusProgram } from './support/server.mjs';
-import { gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
+import { focused, gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const json = (/** @type {unknown} */ value) => JSON.stringify(value, null, 2);
@@ -142,6 +142,7 @@ test(
     const { page, press, type, layout } = studio;
     await layout('Script');
     await openFile(page, 'Good.test.json');
+    await focused(page.getByRole('textbox', { name: /Good\.test\.json/ }));
     // Not saved: a fourth seed.
     await page.getByText('3', { exact: true }).first().waitFor();
     await page
@@ -159,6 +160,12 @@ test(
     await press('Control+k');
     await type('run all tests');
     await press('Enter');
+    await reads(said(page), '4 runs as expected.');
+    const run = page.getByRole('button', { name: /^Run this test/ });
+    await run.focus();
+    await press('Enter');
+    await seen(page.getByRole('group', { name: 'Test' }).getByRole('button', { name: 'Stop' }));
+    await focused(run);
     await reads(said(page), '4 runs as expected.');
   },
 );

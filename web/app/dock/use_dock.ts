@@ -337,12 +337,14 @@ function addPanel(model: Model, id: string): void {
     model.doAction(Actions.addTab(panelTab(id), area.getId(), DockLocation.CENTER, -1, true));
 }
 
-/** What an empty tab is used for first; a drawing comes after its tools. */
+/** What a tab is used for first: a text, which comes after its tools, as a drawing does. */
 function firstIn(place: HTMLElement | null): HTMLElement | null {
   const meant = place?.querySelector<HTMLElement>('[data-autofocus]') ?? null;
   if (meant || !place || place.querySelector('.plan')) return meant;
   return place.querySelector<HTMLElement>(
-    '.cm-content, select, button:not(:disabled), input, [tabindex="0"]',
+    place.querySelector('.script__editor')
+      ? '.cm-content'
+      : 'select, button:not(:disabled), input, [tabindex="0"]',
   );
 }
 

@@ -21,6 +21,8 @@ export function TestBar({ doc, view }: { doc: Doc; view: EditorView | null }) {
   const tests = useTopic('tests', {});
   const test = tests?.tests.find(({ path }) => path === doc);
   const isRunning = tests?.state === 'running';
+  // One that is disabled meanwhile would lose the keyboard.
+  const mayRun = drives && !isRunning;
   const marks = useMemo(() => marksOf(tests, doc), [tests, doc]);
   useMarks(view, failureMarks, marks);
   const act = (what: Promise<void>) => void what.catch((problem: unknown) => studio.tell(problem));
@@ -29,10 +31,10 @@ export function TestBar({ doc, view }: { doc: Doc; view: EditorView | null }) {
       <Button
         small
         keys={words.keys}
-        disabled={!drives || isRunning}
+        aria-disabled={!mayRun}
         tip={isRunning ? words.busy : words.runHelp}
         icon={<IconPlayerPlay {...size} />}
-        onClick={() => act(runTests(studio, [doc]))}
+        onClick={() => mayRun && act(runTests(studio, [doc]))}
       >
         {words.run}
       </Button>

@@ -1,5 +1,6 @@
-import { Suspense } from 'react';
+import { Suspense, useEffect } from 'react';
 import { late } from '../parts/late';
+import { useCloseOverlay } from '../parts/overlay_frame';
 import { useWindow } from '../hooks';
 import Palette from './palette';
 
@@ -20,8 +21,19 @@ export function Overlay() {
   const View = name ? views[name] : null;
   if (!View) return null;
   return (
-    <Suspense fallback={null}>
+    <Suspense fallback={<Coming />}>
       <View key={name} />
     </Suspense>
   );
+}
+
+/** Escape ends it before it is there, too: the first time it has to be loaded. */
+function Coming() {
+  const close = useCloseOverlay();
+  useEffect(() => {
+    const pressed = (event: KeyboardEvent) => event.key === 'Escape' && close();
+    document.addEventListener('keydown', pressed);
+    return () => document.removeEventListener('keydown', pressed);
+  }, [close]);
+  return null;
 }

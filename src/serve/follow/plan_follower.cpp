@@ -139,6 +139,7 @@ void PlanFollower::see(const plan::TraceEvent& event) {
 
 std::vector<PlanFollower::Watching> PlanFollower::watching() const {
     std::vector<Watching> found;
+    if (result_) return found;
     for (const Level& level : levels_) {
         if (!level.plan) continue;
         for (const PlanOutline::Supervisor& one : level.plan->globals) {

@@ -427,6 +427,21 @@ TEST(History, LanesShowWhoWorkedAndWhoWatched) {
               Json::array({{{"from", 0.0}, {"to", 2.7}, {"end", "Done"}, {"count", 2}}}));
 }
 
+// guard has not raised anything: it watches until the plan ends, and no longer.
+TEST(History, NobodyWatchesAPlanThatHasEnded) {
+    History history;
+    history.begin({.kind = "trace", .name = "walk.trace.jsonl", .plans = walk()});
+    for (const size_t one : {0, 2}) history.trace(trace()[one]);
+    history.trace(line("2.0", R"("interrupted","actor":"go","activation":1,"ran":true)"));
+    history.trace(line("2.0", R"("plan-end","result":"Interrupted")"));
+    history.trace(line("9.0", R"("write","variable":"steps","value":4,"by":"hand")"));
+    const Json lanes = history.lanes({0, 9, 900, {}});
+    EXPECT_EQ(lane_of(lanes, "supervisor", "guard")["bars"],
+              Json::array({{{"from", 0.0}, {"to", 2.0}}}));
+    EXPECT_EQ(lane_of(lanes, "supervisor", "near")["bars"],
+              Json::array({{{"from", 0.0}, {"to", 2.0}}}));
+}
+
 TEST(History, AfterAHotChangeThePastKeepsItsOwnPlan) {
     PlanPast past(
         walk(), [](const std::string& file) { return file; }, 1e9);

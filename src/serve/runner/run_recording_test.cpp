@@ -188,6 +188,28 @@ TEST_F(RunRecordingTest, APlanWithABreakpointSettingsAndANewVersionIsTheSameAgai
                 HasSubstr("carbot/carbot.aesl:"));
 }
 
+// A run that is opened again stands in the middle of the instant at which it was paused. What nodes
+// emitted at that instant is in its history, and is not heard again.
+TEST_F(RunRecordingTest, NothingOfItsLastInstantIsHeardTwice) {
+    const std::string plan = test::examples("follow-wall/WallFollow.plan.json");
+    talk::Open open = recorded(test::examples("follow-wall/hall.world.json"), plan);
+    open.breakpoints = {{.number = 7, .plan = plan, .element = "parallelToWall"}};
+    say(talk::SetPace{false, 0});
+    say(open);
+    (void)wait<talk::PlanNow>([](const talk::PlanNow& now) { return !now.stands_at.empty(); });
+    say(talk::FlushRecording{1});
+    done(1);
+    open.order = 2;
+    open.past = talk::PastOf{.recording = file};
+    open.recording.clear();
+    open.breakpoints.clear();
+    say(open);
+    (void)wait<talk::Opened>([](const talk::Opened& one) { return one.order == 2; });
+    say(ask_all());
+    // The answers come behind what waited.
+    EXPECT_FALSE(wire::is_user_event(wait<talk::FrameSeen>().frame.frame.type));
+}
+
 // Whoever looks at the events that a paused plan holds takes what waits from the bus, and Stop does
 // not pass that any more: the same again, also of a run that continues behind it.
 TEST_F(RunRecordingTest, APausedPlanThatIsLookedAtAndStoppedIsTheSameAgain) {

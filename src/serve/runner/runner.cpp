@@ -401,6 +401,7 @@ private:
 
     // Nobody has heard of it yet, and it does not go on by itself.
     void be_here() {
+        show_.tell_frames(*session_, link_);  // of its last instant; they are in its history
         wait_for_history();
         show_.tell_past();
         std::vector<std::string> others = past_.end();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fleet/limits.hpp"
+#include "fleet/robot_names.hpp"
 
 namespace vagus::fleet {
 namespace {
@@ -122,6 +123,7 @@ std::vector<std::string> Operator::chosen(const Chosen& to) const {
         const bool member = robot.description && contains(robot.description->groups, to.group);
         if (to.all || member) names.push_back(name);
     }
+    std::ranges::sort(names, counted_before);
     return names;
 }
 

@@ -89,7 +89,8 @@ TEST(Operator, ThoseThatAreOnlineComeFirst) {
     c.robot("r2");
     c.robot("r3", "offline");
     c.robot("r4");
-    EXPECT_EQ(c.desk.chosen_online_first({.all = true}), (Texts{"r2", "r4", "r1"}));
+    c.robot("r10");
+    EXPECT_EQ(c.desk.chosen_online_first({.all = true}), (Texts{"r2", "r4", "r10", "r1"}));
     EXPECT_EQ(c.desk.chosen_online_first({.robots = {"r9", "r4", "r1"}}),
               (Texts{"r4", "r9", "r1"}));
     EXPECT_FALSE(c.desk.is_online("r9"));

@@ -92,8 +92,11 @@ void Rollout::hear_version(Robot& robot, const Version& version) {
     if (version.number != options_.want.number || version.result == "taken") return;
     if (may_change(robot)) {
         robot.silent = false;
-        robot.has = version.result != "refused" && version.result != "rolled_back";
-        if (version.result != "started") return fail(robot, version.result + ": " + version.why);
+        const bool is_back = version.result == "rolled_back";
+        robot.has = version.result != "refused" && !is_back;
+        if (version.result != "started") {
+            return fail(robot, (is_back ? "rolled back" : version.result) + ": " + version.why);
+        }
         robot.place = Place::Started;
         robot.begun = now_;
         robot.until = now_ + kHealthyFor;

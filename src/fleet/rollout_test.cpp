@@ -76,11 +76,13 @@ TEST(Rollout, TheNextStepFollowsWhenTheFirstIsWell) {
 }
 
 TEST(Rollout, TheFirstThatIsNotWellStopsIt) {
-    for (const char* const result : {"refused", "rolled_back", "waiting", "stopped"}) {
+    for (const auto& [result, said] :
+         {std::pair("refused", "refused"), std::pair("rolled_back", "rolled back"),
+          std::pair("waiting", "waiting"), std::pair("stopped", "stopped")}) {
         RolloutCase c;
         c.tells("r1", result);
         EXPECT_TRUE(c.rollout.is_over());
-        EXPECT_EQ(c.line(0), "failed: " + std::string(result) + ": why");
+        EXPECT_EQ(c.line(0), "failed: " + std::string(said) + ": why");
         EXPECT_EQ(c.line(1), "as it was");
         EXPECT_EQ(c.wanted(), Texts{"r1"});
     }

@@ -209,7 +209,7 @@ class Pupils(Lesson):
         done = self.deploy("all", "--project", self.exercise("two", edition=2), "--steps", "100%")
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("s1: well", done.stdout)
-        self.assertRegex(done.stdout, r"s2: failed: rolled_back: it did not start within 10 s: waiting for nodes .*thymio-II")
+        self.assertRegex(done.stdout, r"s2: failed: rolled back: it did not start within 10 s: waiting for nodes .*thymio-II")
         self.assertIn("1 of 2 robots: well", done.stdout)
 
     def test_one_whose_wifi_comes_and_goes(self):

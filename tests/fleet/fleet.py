@@ -179,6 +179,7 @@ class Fleet(Case):
         self.assertIn("which robots? Write a name, all, or --group GROUP", done.stdout)
         self.do("start", "--group", "red")
         self.wait_state("r1", "running")
+        self.assertIn('no robot of the group "blue" of the fleet', self.desk("list", "--group", "blue").stdout)
 
     def test_events_are_logged_and_emitted(self):
         self.broker("r1", "r2")

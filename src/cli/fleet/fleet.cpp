@@ -78,8 +78,10 @@ std::vector<std::string> names_of(FleetSession& session, const FleetCall& call) 
     return names;
 }
 
-std::string nobody(const FleetSession& session) {
-    return fmt::format("no robot of the fleet \"{}\" is there", session.fleet());
+std::string nobody(const FleetSession& session, const FleetCall& call) {
+    const std::string group =
+        call.group.empty() ? "" : fmt::format("group \"{}\" of the ", call.group);
+    return fmt::format("no robot of the {}fleet \"{}\" is there", group, session.fleet());
 }
 
 int list(FleetSession& session, const FleetCall& call) {
@@ -88,7 +90,7 @@ int list(FleetSession& session, const FleetCall& call) {
     session.wait_until(is_known, fleet::kStateEveryMax + 1s);
     bool all_answer = true;
     const std::vector<std::string> names = names_of(session, call);
-    if (names.empty() && !call.json) print(nobody(session) + "\n");
+    if (names.empty() && !call.json) print(nobody(session, call) + "\n");
     for (const std::string& name : names) {
         const auto found = session.desk().robots().find(name);
         const fleet::Known robot =
@@ -193,7 +195,7 @@ int order(FleetSession& session, const FleetCall& call) {
     session.wait_until([&] { return session.desk().is_over(number); }, wait_of(call));
     std::vector<fleet::Outcome> outcomes = session.desk().outcomes(number);
     std::ranges::sort(outcomes, fleet::counted_before, &fleet::Outcome::robot);
-    if (outcomes.empty()) return complain(nobody(session) + " that this is for");
+    if (outcomes.empty()) return complain(nobody(session, call) + " that this is for");
     const std::string done = command.verb == "stop" ? "stopped" : "done";
     size_t good = 0;
     for (const fleet::Outcome& one : outcomes) {

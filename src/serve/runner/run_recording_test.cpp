@@ -159,7 +159,8 @@ TEST_F(RunRecordingTest, APlanWithABreakpointSettingsAndANewVersionIsTheSameAgai
     say(talk::SetBreakpoints{});
     (void)wait<talk::BreakpointsNow>(
         [](const talk::BreakpointsNow& now) { return now.list.empty(); });
-    say(talk::SetPace{false, 0});
+    // As fast as it can, the plan would end before it has its new version.
+    say(talk::SetPace{false, 20});
     double t = clock_from(20);
     // While it runs, and a new version.
     say(talk::SetVariable{3, 0, "walldist", plan::Value(int64_t{25})});

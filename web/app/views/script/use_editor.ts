@@ -170,7 +170,9 @@ function newState(studio: Studio, doc: Doc, opened: OpenDocument, shown: string)
 
 function tellCursor(studio: Studio, doc: Doc, change: ViewUpdate): void {
   if (!change.selectionSet && !change.docChanged && !change.focusChanged) return;
-  if (!change.view.hasFocus && studio.window.getState().cursor) return;
+  // Without the keyboard it is told of the text that had it last: a list shows a line there.
+  const { cursor } = studio.window.getState();
+  if (!change.view.hasFocus && cursor && cursor.doc !== doc) return;
   const { line, column } = placeOf(change.state.doc, change.state.selection.main.head);
   update(studio.window, (draft) => {
     draft.cursor = { doc, line, column };

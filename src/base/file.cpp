@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <optional>
 
@@ -200,6 +201,16 @@ Status write(const std::string& path, std::string_view content, Disk disk) {
 }
 
 }  // namespace
+
+bool is_file_of_another_kind(const std::string& path, std::string_view begins) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
+    std::string found(begins.size(), '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(found.data(), static_cast<std::streamsize>(found.size()));
+    found.resize(static_cast<size_t>(file.gcount()));
+    return !begins.starts_with(found);
+}
 
 Result<std::string> read_file(const std::string& path) {
     if (path == "-") return read_all(OpenFile(STDIN_FILENO), "standard input");

@@ -31,6 +31,10 @@ private:
     size_t size_ = 0;
 };
 
+// A file is there, with something in it, and does not begin so: it is no older one of a kind that
+// does, but another whose name was typed in the wrong place.
+bool is_file_of_another_kind(const std::string& path, std::string_view begins);
+
 // A new file that grows. What was in a file of that name is gone.
 class GrowingFile {
 public:

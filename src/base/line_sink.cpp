@@ -9,10 +9,9 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 
+#include "base/file.hpp"
 #include "base/log_lines.hpp"
 #include "base/text.hpp"
 
@@ -53,17 +52,6 @@ void take_back(int descriptor, size_t count) {
     if (::ftruncate(descriptor, end - back) == 0) ::lseek(descriptor, end - back, SEEK_SET);
 }
 
-// A file that is there, and begins otherwise.
-bool is_another(const std::string& path, std::string_view begins) {
-    std::error_code ignored;
-    if (begins.empty() || !std::filesystem::is_regular_file(path, ignored)) return false;
-    std::string found(begins.size(), '\0');
-    std::ifstream file(path, std::ios::binary);
-    file.read(found.data(), static_cast<std::streamsize>(found.size()));
-    const auto got = static_cast<size_t>(file.gcount());
-    return got > 0 && !begins.starts_with(std::string_view(found).substr(0, got));
-}
-
 }  // namespace
 
 Result<LineSink> LineSink::open(const std::string& path, When when, std::string_view begins) {
@@ -76,7 +64,7 @@ Result<LineSink> LineSink::open(const std::string& path, When when, std::string_
         sink.terminal_ = ::isatty(STDOUT_FILENO) == 1;
         return sink;
     }
-    if (is_another(path, begins)) {
+    if (is_file_of_another_kind(path, begins)) {
         return Error{Code::Refused,
                      fmt::format("{}: is there already, and is something else: what "
                                  "is written there begins with {}; name another file",

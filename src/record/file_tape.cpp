@@ -7,10 +7,7 @@
 namespace vagus::record {
 
 Result<GrowingFile> create_recording(const std::string& path) {
-    const auto before = MappedFile::open(path);
-    const bool is_other = before.ok() && !before.value().bytes().empty() &&
-                          !before.value().bytes().starts_with(mcap::kMagic);
-    if (!is_other) return GrowingFile::create(path);
+    if (!is_file_of_another_kind(path, mcap::kMagic)) return GrowingFile::create(path);
     return Error{Code::Refused, path +
                                     ": is there already, and is no recording; name another file "
                                     "for the recording, as run.mcap"};

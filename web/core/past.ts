@@ -43,7 +43,7 @@ export class Past {
   readonly failed = new Emitter<unknown>();
   /** The cursor, in seconds; null: now. */
   at: number | null = null;
-  /** The instant of which views have the answer: that of before, until the new one has come. */
+  /** The instant that the views show: the previous one until the answer for `at` arrives. */
   shown: number | null = null;
   /** What came of it last; null until then. */
   instant: Instant | null = null;

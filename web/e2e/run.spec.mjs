@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { aesl, makeProject } from './support/robots.mjs';
-import { gone, seen, test, until } from './support/studio.mjs';
+import { focused, gone, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const world = JSON.stringify({
@@ -240,10 +240,7 @@ test(
     await layout('Present');
     await layout('Script');
     await command('New plan');
-    const name = page.getByRole('textbox', { name: 'Name of the new file' });
-    await until('the keyboard is there', () =>
-      name.evaluate((field) => field === document.activeElement),
-    );
+    await focused(page.getByRole('textbox', { name: 'Name of the new file' }));
     await type('Mine');
     await press('Enter');
     await shows(page, 'Mine');

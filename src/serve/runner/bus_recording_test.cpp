@@ -14,6 +14,7 @@
 #include "record/replay.hpp"
 #include "record/topics.hpp"
 #include "record/why.hpp"
+#include "serve/runner/test_recording.hpp"
 #include "serve/runner/test_run_host.hpp"
 #include "session/sim_session.hpp"
 #include "session/toolboxes.hpp"
@@ -56,20 +57,6 @@ private:
 
 class BusRecordingTest : public RunnerTest {
 protected:
-    static constexpr const char* kBeats = R"(<!DOCTYPE aesl-source><network>
-        <event size="1" name="beat"/>
-        <node nodeId="1" name="thymio-II">
-var count = 0
-timer.period[0] = 20
-onevent timer0
-count = count + 1
-emit beat count
-</node></network>)";
-    static constexpr const char* kRoom =
-        R"({"format": "vagus-world/1", "name": "Room", "size": [2, 2], "robots":
-            [{"name": "alice", "type": "thymio2", "at": [1, 1], "node": 1,
-              "script": "beats.aesl"}]})";
-
     // Counts what it hears, so many a beat.
     std::string counting_plan(int step = 1) {
         return write("Count.plan.json", R"({"format": "vagus-plan/1", "name": "Count",
@@ -155,9 +142,9 @@ emit beat count
         return chain.value();
     }
 
-    std::string project = write("beats.aesl", kBeats);
+    std::string project = write("beats.aesl", counting_script(20));
     std::string file = (folder / "run.mcap").string();
-    RobotAtPort robot{write("room.world.json", kRoom)};
+    RobotAtPort robot{write("room.world.json", room_with("beats.aesl"))};
 };
 
 TEST_F(BusRecordingTest, APlanDecidesAgainWhatItDecidedAndWhatAPersonSet) {

@@ -13,6 +13,7 @@
 #include "record/replay.hpp"
 #include "record/topics.hpp"
 #include "record/why.hpp"
+#include "serve/runner/test_recording.hpp"
 #include "serve/runner/test_run_host.hpp"
 #include "trial/continuation.hpp"
 #include "wire/messages.hpp"
@@ -293,20 +294,8 @@ TEST_F(RunRecordingTest, ARunContinuesFromAnyInstantOfTheOneBefore) {
 class CountingTest : public RunRecordingTest {
 protected:
     std::string counting() {
-        const std::string project = R"(<!DOCTYPE aesl-source><network>
-            <event size="1" name="beat"/>
-            <node nodeId="1" name="thymio-II">
-var count = 0
-timer.period[0] = 1000
-onevent timer0
-count = count + 1
-emit beat count
-</node></network>)";
-        write("count.aesl", project);
-        return write("count.world.json",
-                     R"({"format": "vagus-world/1", "name": "Room", "size": [2, 2], "robots":
-                         [{"name": "alice", "type": "thymio2", "at": [1, 1], "node": 1,
-                           "script": "count.aesl"}]})");
+        write("count.aesl", counting_script(1000));
+        return write("count.world.json", room_with("count.aesl"));
     }
     talk::SendFrame to_node(auto message) {
         message.dest = 1;

@@ -1,4 +1,4 @@
-// For tests of what is asked of recordings: fifteen seconds of the wall follower.
+// For tests of recordings: fifteen seconds of the wall follower, and a robot that counts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,6 +11,26 @@
 #include "session/toolboxes.hpp"
 
 namespace vagus::serve {
+
+// A node that counts, and says so, every so many milliseconds; the room that its robot stands in.
+inline std::string counting_script(int every_ms) {
+    return R"(<!DOCTYPE aesl-source><network>
+<event size="1" name="beat"/>
+<node nodeId="1" name="thymio-II">
+var count = 0
+timer.period[0] = )" +
+           std::to_string(every_ms) + R"(
+onevent timer0
+count = count + 1
+emit beat count
+</node></network>)";
+}
+inline std::string room_with(const std::string& script) {
+    return R"({"format": "vagus-world/1", "name": "Room", "size": [2, 2], "robots":
+                [{"name": "alice", "type": "thymio2", "at": [1, 1], "node": 1,
+                  "script": ")" +
+           script + R"("}]})";
+}
 
 // Gives the path.
 inline std::string record_wall(const std::string& path, const std::string& walldist) {

@@ -53,7 +53,9 @@ export function PlanChange({ doc }: { doc: Doc }) {
             small
             disabled={!drives}
             onClick={() =>
-              studio.order('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
+              void studio
+                .sendInTurn('plan.start', plan.doc === undefined ? {} : { doc: plan.doc })
+                .catch((problem: unknown) => studio.tell(problem))
             }
           >
             {words.again}

@@ -87,7 +87,7 @@ export function useScriptData(doc: Doc, isScript: boolean, view: EditorView | nu
   useHandle(doc, view);
 }
 
-/** Told anew for each version that was checked: the same findings are about another text then. */
+/** A new value for each version that was checked, even if its findings are the same: they belong to that text. */
 function useToldFindings(doc: Doc): { findings: readonly Finding[]; version: number | undefined } {
   const topic = useTopic('findings', {});
   const all = topic?.findings;

@@ -11,14 +11,22 @@ import { temporaryFolder, vagusProgram } from './support/server.mjs';
 const examples = path.resolve(import.meta.dirname, '../../examples');
 const decompressHandlers = { zstd: (/** @type {Uint8Array} */ bytes) => zstdDecompressSync(bytes) };
 
-/** Ten simulated seconds of the wall follower. */
-function recorded(/** @type {string} */ folder, /** @type {string[]} */ ...options) {
+/** So many simulated seconds of the wall follower. */
+function recorded(/** @type {string} */ folder, seconds = 10, /** @type {string[]} */ options = []) {
   const file = path.join(folder, 'run.mcap');
   const plan = path.join(examples, 'follow-wall/WallFollow.plan.json');
   const world = path.join(examples, 'follow-wall/hall.world.json');
-  const words = ['plan', 'run', plan, '--world', world, '--clock', 'virtual', '--max-time', '10'];
+  const words = ['plan', 'run', plan, '--world', world, '--clock', 'virtual'];
   try {
-    execFileSync(vagusProgram, [...words, '--quiet', '--record', file, ...options]);
+    execFileSync(vagusProgram, [
+      ...words,
+      '--quiet',
+      '--max-time',
+      String(seconds),
+      '--record',
+      file,
+      ...options,
+    ]);
   } catch (error) {
     // 5: its time was over.
     assert.equal(/** @type {{ status: number }} */ (error).status, 5);
@@ -75,7 +83,7 @@ void test('every channel, schema, attachment, index and the statistics are read'
 
 void test('pictures of a camera are read', async (t) => {
   const reader = await McapIndexedReader.Initialize({
-    readable: readable(readFileSync(recorded(temporaryFolder(t), '--record-camera'))),
+    readable: readable(readFileSync(recorded(temporaryFolder(t), 10, ['--record-camera']))),
     decompressHandlers,
   });
   const channel = [...reader.channelsById.values()].find((one) => one.topic === '/camera/carbot');
@@ -105,7 +113,8 @@ void test('pictures of a camera are read', async (t) => {
 
 void test('a file that was cut off is repaired, and read by others', (t) => {
   const folder = temporaryFolder(t);
-  const bytes = readFileSync(recorded(folder));
+  // Chunks of 1 MB, each 26 s of this run: how many there are must not depend on how fast it ran.
+  const bytes = readFileSync(recorded(folder, 120));
   const cut = path.join(folder, 'cut.mcap');
   writeFileSync(cut, bytes.subarray(0, Math.floor((bytes.length * 2) / 3)));
   const whole = path.join(folder, 'whole.mcap');

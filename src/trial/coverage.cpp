@@ -215,7 +215,7 @@ std::string format_lcov(const Coverage& coverage) {
     std::string text;
     for (const auto& [file, script] : coverage.scripts) {
         if (script.only_told) continue;
-        text += fmt::format("TN:\nSF:{}\n", file);
+        text += fmt::format("{}{}\n", kLcovBegins, file);
         for (const auto& [branch, counts] : script.branches) {
             const auto [line, number] = branch;
             const bool reached = counts[0] + counts[1] > 0;

@@ -87,6 +87,7 @@ std::string format_table(const Coverage& coverage);
 std::string format_missing(const PlanCoverage& coverage);
 // The lines of a script that frames told of, a line each.
 std::string format_told(const ScriptCoverage& coverage);
+constexpr std::string_view kLcovBegins = "TN:\nSF:";
 // Scripts as the tracefile of lcov 1.16 (man geninfo, "FILES"); without those of which only some
 // lines are known, for it would take the others for no lines at all.
 std::string format_lcov(const Coverage& coverage);

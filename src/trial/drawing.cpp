@@ -73,13 +73,13 @@ public:
             bottom = std::max(bottom, box.y + box.height());
         }
         return fmt::format(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" "
+            "{}\"{:.0f} {:.0f} {:.0f} {:.0f}\" "
             "font-family=\"sans-serif\" font-size=\"12\">\n<title>{}: what the runs went "
             "through</title>\n<defs>{}{}</defs>\n<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"100%\" "
             "height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
-            left - kMargin, top - kMargin, right - left + 2 * kMargin, bottom - top + 2 * kMargin,
-            escaped(plan_.name), marker("taken", kTaken), marker("never", kNever), left - kMargin,
-            top - kMargin, body);
+            kDrawingBegins, left - kMargin, top - kMargin, right - left + 2 * kMargin,
+            bottom - top + 2 * kMargin, escaped(plan_.name), marker("taken", kTaken),
+            marker("never", kNever), left - kMargin, top - kMargin, body);
     }
 
 private:

@@ -11,6 +11,7 @@
 
 namespace vagus::trial {
 
+constexpr std::string_view kDrawingBegins = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=";
 std::string draw_coverage(const plan::Plan& plan, const PlanCoverage& coverage);
 
 }  // namespace vagus::trial

@@ -109,8 +109,7 @@ std::string format_junit(const std::vector<TestResult>& results) {
             "time=\"{:.3f}\">\n{}  </testsuite>\n",
             xml(result.test.path), all.size(), bad - troubles, troubles, seconds, cases);
     }
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + suites +
-           "</testsuites>\n";
+    return std::string(kJunitBegins) + suites + "</testsuites>\n";
 }
 
 }  // namespace vagus::trial

@@ -48,6 +48,8 @@ std::vector<Failure> failures_of(const TestFile& test, const Outcome& outcome);
 // end, each beginning with its place.
 std::string describe_failure(const TestFile& test, const SeedResult& result);
 
+constexpr std::string_view kJunitBegins =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
 // A test suite for each test, a test case for each seed, and for each set of faults (the schema of
 // Ant's and Jenkins' JUnit reports).
 std::string format_junit(const std::vector<TestResult>& results);

@@ -12,6 +12,7 @@ import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from harness import patiently, run_vagus, vagus
+from mcap import MAGIC
 
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 
@@ -122,6 +123,39 @@ class Trials(unittest.TestCase):
             if not stat.exists() or stat.read_text().rsplit(")", 1)[1].split()[0] == "Z":
                 return
         self.fail("the run goes on")
+
+    def test_a_signal_leaves_no_half_recording(self):
+        path = self.write({"ends": "OK"}, seeds=[1, 2], max_time=3000, set={"late": 1e6})
+        results = self.folder / "results"
+        half, whole = results / "t.seed-1.mcap", results / "t.seed-2.mcap"
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number.name), vagus("test", path, "-j", 1, "--results", results) as program:
+                for _ in patiently():
+                    if half.exists() and half.stat().st_size > 0:
+                        break
+                whole.write_bytes(MAGIC + b"of a run before" + MAGIC)
+                program.signal(number)
+                self.assertEqual(program.wait_end(), -number)
+                self.assertEqual(list(results.iterdir()), [whole])
+
+    def test_files_of_other_kinds_stay(self):
+        self.write({"always": "t < 1"})
+        plan = self.folder / "Ahead.plan.json"
+        said = self.run_test("--junit", plan, status=2)
+        self.assertIn(f"{plan}: is there already, and is not a report of JUnit", said)
+        said = self.run_test("--coverage", plan, status=2)
+        self.assertIn(f"{plan}: is a file; --coverage expects a folder", said)
+        self.assertEqual(json.loads(plan.read_text()), PLAN)
+        for name in ("scripts.info", "Ahead.svg"):
+            other = self.folder / name
+            other.write_text("mine")
+            said = self.run_test("--coverage", self.folder, status=2 if name == "scripts.info" else 1)
+            self.assertIn(f"{other}: is there already, and is not a", said)
+            self.assertEqual(other.read_text(), "mine")
+            other.unlink()
+        # Our own are replaced.
+        for _ in range(2):
+            self.run_test("--junit", self.folder / "junit.xml", "--coverage", self.folder / "coverage", status=1)
 
     def test_other_programs_read_the_files(self):
         self.write({"always": "contact < 2"}, seeds=[1, 2])

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "cli/output.hpp"
 #include "cli/test/pool.hpp"
+#include "cli/test/seed_job.hpp"
 #include "plan/value.hpp"
 #include "sim/chaos_file.hpp"
 #include "trial/shrink.hpp"
@@ -203,12 +204,13 @@ std::string result_stem(const std::vector<trial::TestResult>& all, const trial::
 size_t try_chaos(std::vector<trial::TestResult>& results, const ChaosTries& tries) {
     const std::vector<Try> all = tries_of(results, tries);
     std::vector<Tried> tried(all.size());
-    run_jobs(
+    const bool all_tried = run_jobs(
         all.size(), tries.at_once, [&](size_t i) { return run_try(all[i], tries); },
         [&](size_t i, JobResult result) {
             tried[i] = read_tried(std::move(result));
             return true;
         });
+    if (!all_tried) return 0;
     keep(all, tried, tries, results);
     // Of each test the first that it did not survive.
     std::vector<size_t> firsts;
@@ -216,20 +218,27 @@ size_t try_chaos(std::vector<trial::TestResult>& results, const ChaosTries& trie
         const bool another = firsts.empty() || all[firsts.back()].result != all[i].result;
         if (tried[i].broken && another) firsts.push_back(i);
     }
+    const auto stem_of = [&](size_t first) {
+        const Try& one = all[firsts[first]];
+        return fmt::format("{}.chaos-{}", result_stem(results, one.result->test, tries.results),
+                           one.set);
+    };
     std::vector<std::string> told(firsts.size());
-    run_jobs(
+    const bool all_told = run_jobs(
         firsts.size(), tries.at_once,
         [&](size_t i) {
             const Try& one = all[firsts[i]];
             if (!tried[firsts[i]].trouble.empty()) return "  " + tried[firsts[i]].trouble + "\n";
-            const std::string stem = fmt::format(
-                "{}.chaos-{}", result_stem(results, one.result->test, tries.results), one.set);
-            return Shrinking(one, tried[firsts[i]].outcome, stem).run();
+            return Shrinking(one, tried[firsts[i]].outcome, stem_of(i)).run();
         },
         [&](size_t i, JobResult result) {
             told[i] = result.trouble.empty() ? result.text : "  " + result.trouble + "\n";
             return true;
         });
+    if (!all_told) {
+        for (size_t i = 0; i < firsts.size(); ++i) delete_half_recording(stem_of(i) + ".mcap");
+        return 0;
+    }
     size_t next = 0;
     for (size_t i = 0; i < all.size(); i += tries.sets) {
         const auto begin = tried.begin() + static_cast<std::ptrdiff_t>(i);

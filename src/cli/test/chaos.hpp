@@ -29,7 +29,7 @@ Result<ChaosTries> parse_chaos_tries(const std::string& text);
 
 // Of tests that have a world and no faults of their own, and whose runs were as expected. Tells
 // what came of each, and adds what came of each set to its result. The number of tests that did not
-// survive.
+// survive; 0, and nothing half-written, where this process is to end (net/end_signal.hpp).
 size_t try_chaos(std::vector<trial::TestResult>& results, const ChaosTries& tries);
 
 // Where in the folder the files of a test go: FOLDER/NAME. Two tests of one name have their own

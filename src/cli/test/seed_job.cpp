@@ -4,7 +4,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/file.hpp"
 #include "cli/output.hpp"
+#include "mcap/records.hpp"
 #include "trial/trial.hpp"
 
 namespace vagus::cli {
@@ -31,6 +33,18 @@ std::string work_seed(const trial::TestFile& test, uint64_t seed, const SeedWork
         }
     }
     return kDone + recording + "\n" + trial::format_outcome(outcome.value());
+}
+
+void delete_half_recording(const std::string& path) {
+    if (is_file_of_another_kind(path, mcap::kMagic)) return;
+    {
+        const auto file = MappedFile::open(path);
+        if (!file.ok()) return;  // there is none
+        const std::string_view bytes = file.value().bytes();
+        if (bytes.size() > mcap::kMagic.size() && bytes.ends_with(mcap::kMagic)) return;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
 }
 
 SeedDone read_seed_work(uint64_t seed, JobResult job) {

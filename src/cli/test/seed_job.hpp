@@ -24,6 +24,9 @@ struct SeedWork {
 // In the process of the seed.
 std::string work_seed(const trial::TestFile& test, uint64_t seed, const SeedWork& work);
 
+// What a process that was ended has left of such a file; a whole recording stays.
+void delete_half_recording(const std::string& path);
+
 struct SeedDone {
     trial::SeedResult result = {};
     std::string refused = {};  // why the test can have no such run; empty: it has

@@ -18,6 +18,7 @@
 #include "cli/test/seed_job.hpp"
 #include "cli/verbs.hpp"
 #include "embed/loaded_plan.hpp"
+#include "net/end_signal.hpp"
 #include "session/toolboxes.hpp"
 #include "trial/drawing.hpp"
 #include "trial/from_recording.hpp"
@@ -125,6 +126,44 @@ Result<trial::RecordedRuns> count_recordings(const std::vector<std::string>& rec
     return counted;
 }
 
+// ---- files that are written ----
+
+// A file of ours; what else has its name was typed in the wrong place.
+struct FileKind {
+    const char* what;
+    std::string_view begins;
+};
+constexpr FileKind kJunit{"a report of JUnit", trial::kJunitBegins};
+constexpr FileKind kLcov{"a tracefile of lcov", trial::kLcovBegins};
+constexpr FileKind kDrawing{"a drawing of coverage", trial::kDrawingBegins};
+constexpr const char* kScriptsFile = "scripts.info";
+
+Status check_replaceable(const std::string& path, const FileKind& kind) {
+    if (!is_file_of_another_kind(path, kind.begins)) return Status::done();
+    return Error{Code::Refused, fmt::format("{}: is there already, and is not {}, which would be "
+                                            "written there; name another place",
+                                            path, kind.what)};
+}
+
+Status replace_file(const std::string& path, const FileKind& kind, const std::string& content) {
+    TRY(check_replaceable(path, kind));
+    return write_file(path, content);
+}
+
+// Before any test runs, so that nobody waits for nothing.
+Status check_places(const TestOptions& options) {
+    if (!options.junit.empty()) TRY(check_replaceable(options.junit, kJunit));
+    if (options.coverage.empty()) return Status::done();
+    const fs::path folder(options.coverage);
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored)) {
+        return Error{Code::Refused, fmt::format("{}: is a file; --coverage expects a folder, which "
+                                                "is made if there is none",
+                                                options.coverage)};
+    }
+    return check_replaceable((folder / kScriptsFile).string(), kLcov);
+}
+
 // ---- running ----
 
 class Session {
@@ -142,9 +181,10 @@ public:
 
     int run() {
         outcomes_.resize(jobs_.size());
-        run_jobs(
+        const bool all = run_jobs(
             jobs_.size(), at_once(), [this](size_t i) { return work(jobs_[i]); },
             [this](size_t i, JobResult result) { return take(i, std::move(result)); });
+        if (!all) return end_early();
         if (!invalid_.empty()) return complain(invalid_, kExitUsage);
         for (size_t i = 0; i < jobs_.size(); ++i) {
             results_[jobs_[i].test].seeds.push_back(std::move(outcomes_[i]));
@@ -183,6 +223,11 @@ private:
         return invalid_.empty();
     }
 
+    int end_early() const {
+        for (const Job& job : jobs_) delete_half_recording(recording_of(job));
+        return kExitFailed;
+    }
+
     // ---- telling ----
 
     int report() {
@@ -201,6 +246,7 @@ private:
         const Status written = write_files(coverage, recorded.value().plans());
         if (!written.ok()) return complain(written.error());
         if (options_.tries.sets > 0) failed += break_things();
+        if (net::end_asked()) return kExitFailed;
         // Again, now that it has the sets of faults, too.
         const Status told = options_.tries.sets > 0 ? write_junit() : Status::done();
         if (!told.ok()) return complain(told.error());
@@ -243,7 +289,7 @@ private:
 
     Status write_junit() const {
         if (options_.junit.empty()) return Status::done();
-        return write_file(options_.junit, trial::format_junit(results_));
+        return replace_file(options_.junit, kJunit, trial::format_junit(results_));
     }
 
     Status write_files(const trial::Coverage& coverage,
@@ -263,7 +309,7 @@ private:
             text += "\nas far as frames tell, " + file + ":\n" + trial::format_told(script);
         }
         TRY(write_file((folder / "coverage.txt").string(), text));
-        TRY(write_file((folder / "scripts.info").string(), trial::format_lcov(coverage)));
+        TRY(replace_file((folder / kScriptsFile).string(), kLcov, trial::format_lcov(coverage)));
         std::vector<plan::Plan> plans = TRY(plans_of_tests());
         plans.insert(plans.end(), recorded.begin(), recorded.end());
         return draw_plans(coverage, plans, folder);
@@ -292,7 +338,8 @@ private:
             const int number = ++named[plan.name];
             const std::string name =
                 plan.name + (number > 1 ? fmt::format("-{}", number) : "") + ".svg";
-            TRY(write_file((folder / name).string(), trial::draw_coverage(plan, counted->second)));
+            TRY(replace_file((folder / name).string(), kDrawing,
+                             trial::draw_coverage(plan, counted->second)));
         }
         return Status::done();
     }
@@ -319,9 +366,12 @@ int test(TestOptions options) {
                               [](const std::string& path) { return !is_recording(path); });
     options.recordings.assign(tests_end, options.files.end());
     options.files.erase(tests_end, options.files.end());
+    const Status places = check_places(options);
+    if (!places.ok()) return complain(places.error(), kExitUsage);
     auto tests = read_tests(options);
     if (!tests.ok()) return complain(tests.error(), kExitUsage);
-    return Session(options, std::move(tests.value())).run();
+    net::watch_for_end();
+    return net::end_as_asked(Session(options, std::move(tests.value())).run());
 }
 
 // ---- vagus test new ----

@@ -77,8 +77,7 @@ Status check_lived(const PastRun& past, const std::string& path) {
                                         "`vagus replay` runs it again"};
     }
     TRY(check_no_fleet(past.about, path,
-                       ", which the studio does not run; in a terminal `vagus replay`, `vagus "
-                       "why` and `vagus compare` are asked about it"));
+                       ", which the studio does not run; `vagus replay` runs it again"));
     if (past.about.verb != kStudioVerb && past.about.plan.empty()) {
         return Error{Code::Refused, path +
                                         ": is of a world without a plan, recorded by `vagus "

@@ -1,5 +1,7 @@
 """What the server keeps of a run: any instant of it, what a timeline draws, and traces as files."""
 import json
+import pathlib
+import shutil
 import sys
 import tempfile
 import unittest
@@ -8,7 +10,10 @@ import bus_plans
 import projects
 from cases import Case
 from harness import listening, run_vagus, simulated
+from mcap import Recording
 from projects import PLAN
+
+EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "examples"
 
 
 def levels_of(instant):
@@ -259,6 +264,54 @@ class ARecordingOfARobot(Case):
         self.assertIn("text.mcap", self.refused("bad_input", "history.open", trace="text.mcap"))
         self.assertIn("there is no such file", self.refused("not_found", "history.open", trace="none.mcap"))
         self.assertIn("there is no such file", self.refused("not_found", "history.open", trace="../monday.mcap"))
+
+
+class ARecordingOfAFleet(Case):
+    """Ten robots, each with a plan of its own: what was recorded is shown, robot by robot."""
+
+    def open_recorded(self):
+        def make(folder):
+            for name in ("carbot", "warehouse"):
+                shutil.copytree(EXAMPLES / name, folder / name)
+            shutil.copy(EXAMPLES / "vagus.json", folder)
+            run_vagus("sim", folder / "warehouse/hall.world.json", "--headless", "--speed", "max", "--duration", 60, "--record",
+                      folder / "run.mcap")
+
+        page = self.open(make)
+        self.assertIn("10 robots have projects of their own", page.do("recording.open", path="run.mcap")["why"])
+        return page, Recording(self.folder / "run.mcap")
+
+    def test_ItsWorldAndItsEventsAreThereAtAnyInstant(self):
+        page, recording = self.open_recorded()
+        opened = page.do("history.open", trace="run.mcap")
+        names = [f"r{number}" for number in range(1, 11)]
+        self.assertEqual(([one["name"] for one in opened["scene"]["robots"]], len(opened["scene"]["objects"])), (names, 6))
+        self.assertEqual(opened["to"], recording.messages[-1][1])
+        then = page.do("history.at", t=60, events=2000, trace="run.mcap")
+        update = json.loads(next(data for topic, t, data in recording.messages if topic == "/world/poses" and t == 60))
+        for entity in update["entities"]:
+            place = entity["cubes"][0]["pose"]["position"]
+            (pose,) = [pose for pose in then["robots"] if f"robot/{names[pose[0]]}" == entity["id"]]
+            self.assertEqual([round(value, 4) for value in pose[1:3]], [round(place[axis], 4) for axis in "xy"])
+        told = [[one["source"], one["name"], one["args"]] for one in then["events"]]
+        for robot in names:
+            events = [one for one in recording.json(f"/robot/{robot}/bus/events") if one["t"] <= 60]
+            expected = [[robot if one["node"] == 0 else f"{robot}/drive", one["name"], one["args"]] for one in events]
+            self.assertEqual([one for one in told if one[0].split("/")[0] == robot], expected)
+
+    def test_ThePlanOfEachRobotIsShownAndAskedWhy(self):
+        page, recording = self.open_recorded()
+        for asked, robot in (({}, "r1"), ({"robot": "r2"}, "r2")):
+            opened = page.do("history.open", trace="run.mcap", **asked)
+            self.assertEqual((opened["robot"], opened["plan"], opened["refused"]), (robot, True, 0))
+            lines = recording.json(f"/robot/{robot}/plan/trace")
+            self.assertEqual(opened["lines"], len(lines))
+            begun = [line for line in lines if line["kind"] == "actor-start"][-1]
+            then = page.do("history.at", t=begun["t"], trace="run.mcap", **asked)
+            self.assertEqual((levels_of(then)[0]["actor"], levels_of(then)[0]["doc"]), (begun["actor"], "warehouse/picker/Pick.plan.json"))
+            chain = page.do("why.ask", about="actor", name=begun["actor"], t=begun["t"] + 0.001, trace="run.mcap", robot=robot)["chain"]
+            self.assertEqual(chain[0]["what"], f"{robot}: the actor {begun['actor']} began")
+        self.assertIn("no robot r11", self.refused("not_found", "history.open", trace="run.mcap", robot="r11"))
 
 
 class Hostile(HistoryCase):

@@ -1,8 +1,8 @@
 // How components look at what is shown: now, or an instant of the past. The one place that knows which.
 
 import { useCallback, useSyncExternalStore } from 'react';
-import type { PlanThen } from '../core/past';
-import type { Happening, HistoryNode, NodeId } from '../protocol/messages';
+import type { OpenTrace, PlanThen } from '../core/past';
+import type { Happening, HistoryNode, NodeId, Topics } from '../protocol/messages';
 import { useDrives, useStudio, useTopic } from './hooks';
 
 function usePastPart<T>(select: () => T): T {
@@ -27,6 +27,19 @@ export function useIsPastShown(): boolean {
 export function useTraceName(): string | null {
   const { past } = useStudio();
   return usePastPart(() => past.trace?.path ?? null);
+}
+
+/** What that trace is asked as, and the robots that have plans in it. */
+export function useTraceOpen(): OpenTrace | null {
+  const { past } = useStudio();
+  return usePastPart(() => past.trace);
+}
+
+/** What is in the world that is shown: the one that runs, or that of the trace. */
+export function useScene(on = true): Topics['scene']['is'] | undefined {
+  const now = useTopic('scene', on ? {} : null);
+  const then = useTraceOpen()?.scene;
+  return on ? (then ?? now) : undefined;
 }
 
 /** Until when something is known of what is looked at. */

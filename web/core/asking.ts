@@ -74,8 +74,7 @@ export class Asking {
 
 export const askingOf: (studio: Studio) => Asking = deskFor((studio: Studio) => {
   const asking = new Asking((input) => {
-    const shown = studio.past.trace;
-    return studio.send('why.ask', shown ? { ...input, trace: shown.path } : input);
+    return studio.send('why.ask', { ...input, ...studio.past.asked });
   });
   studio.connection.renewed.on(() => asking.forget());
   return asking;

@@ -5,9 +5,11 @@ import { Past, type Instant } from './past';
 import type { TopicCache } from './topics';
 
 interface Asked {
-  input: { t: number; events?: number; trace?: string };
+  input: { t: number; events?: number; trace?: string; robot?: string };
   answer(more?: Partial<Instant>): Promise<void>;
 }
+
+const of = ({ robot }: Asked['input']) => (robot ? { robots: ['r1', robot], robot } : {});
 
 /** A server that answers when it is told to; its history goes from 10 s to 100 s. */
 function aPast() {
@@ -16,7 +18,7 @@ function aPast() {
   const connection = {
     send: (command: string, input: Asked['input']) => {
       if (command === 'history.open')
-        return Promise.resolve({ from: 2, to: 7, lines: 3, refused: 0, plan: true });
+        return Promise.resolve({ from: 2, to: 7, lines: 3, refused: 0, plan: true, ...of(input) });
       return new Promise((resolve) =>
         asked.push({
           input,
@@ -126,5 +128,13 @@ describe('the past', () => {
     expect(past.at).toBe(2);
     past.back();
     expect([past.at, past.trace]).toEqual([null, null]);
+  });
+
+  it('of a recording of several robots is asked for one of them', async () => {
+    const { past, asked } = aPast();
+    await past.openTrace('run.mcap', 'r2', 6);
+    expect(past.at).toBe(6);
+    expect(past.asked).toEqual({ trace: 'run.mcap', robot: 'r2' });
+    expect(asked[0]?.input).toMatchObject(past.asked);
   });
 });

@@ -25,6 +25,11 @@ export interface OpenTrace {
   path: Path;
   from: number;
   to: number;
+  /** Those with projects of their own, and whose plan is shown. */
+  robots: readonly string[];
+  robot?: string;
+  /** The world that it was recorded in. */
+  scene?: Topics['scene']['is'];
 }
 
 /** What a view shows of then beside words and poses: where sensors looked, or what a camera saw. */
@@ -100,10 +105,29 @@ export class Past {
     this.forget();
   }
 
-  async openTrace(path: Path): Promise<Commands['history.open']['out']> {
-    const opened = await this.connection.send('history.open', { trace: path });
-    this.trace = { path, from: opened.from, to: opened.to };
-    this.look(opened.from);
+  /** What the trace is asked as; nothing: it is the run. */
+  get asked(): { trace?: Path; robot?: string } {
+    if (!this.trace) return {};
+    const { path, robot } = this.trace;
+    return robot === undefined ? { trace: path } : { trace: path, robot };
+  }
+
+  /** At its beginning, or at that instant. */
+  async openTrace(
+    path: Path,
+    robot?: string,
+    at?: number,
+  ): Promise<Commands['history.open']['out']> {
+    const opened = await this.connection.send('history.open', {
+      trace: path,
+      ...(robot === undefined ? {} : { robot }),
+    });
+    const { from, to, robots = [], scene } = opened;
+    this.trace = { path, from, to, robots };
+    if (opened.robot !== undefined) this.trace.robot = opened.robot;
+    if (scene !== undefined && misfit(scene, topicTable.scene.is ?? {}) === '')
+      this.trace.scene = scene as unknown as Topics['scene']['is'];
+    this.look(at ?? from);
     return opened;
   }
 
@@ -158,10 +182,9 @@ export class Past {
   }
 
   private input(t: number, events: number): Commands['history.at']['in'] {
-    const trace = this.trace ? { trace: this.trace.path } : {};
     const sights: Sights = {};
     for (const one of this.sights) Object.assign(sights, one);
-    return { t, events, ranges: this.ranges(), ...sights, ...trace };
+    return { t, events, ranges: this.ranges(), ...sights, ...this.asked };
   }
 
   private show(instant: Instant, t: number): void {

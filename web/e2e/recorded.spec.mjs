@@ -1,9 +1,10 @@
 // A recording that cannot be run again, as that of a real robot, is shown as it was recorded.
 import { execFileSync } from 'node:child_process';
+import { cpSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
-import { vagusProgram } from './support/server.mjs';
+import { root, vagusProgram } from './support/server.mjs';
 import { gone, reads, seen, test } from './support/studio.mjs';
 /** @import { TestContext } from './support/studio.mjs' */
 
@@ -49,5 +50,45 @@ test(
     await look(studio, 'the recording and its why');
     await press('Escape');
     await gone(page.getByText('Showing monday.mcap.'));
+  },
+);
+
+/** Ten robots with a plan each, in a project that has another world. */
+function recordedFleet(/** @type {TestContext} */ t) {
+  const project = makeProject(t, { name: 'Sunday' }, {});
+  for (const part of ['carbot', 'warehouse', 'vagus.json'])
+    cpSync(join(root, 'examples', part), join(project.place, 'fleet', part), { recursive: true });
+  const hall = join(project.place, 'fleet/warehouse/hall.world.json');
+  const words = ['sim', hall, '--headless', '--speed', 'max', '--duration', '60'];
+  execFileSync(vagusProgram, [...words, '--record', join(project.place, 'hall.mcap')]);
+  return project;
+}
+
+test(
+  'a recording of a fleet shows its world, and the plan and the why of the chosen robot',
+  { prepare: recordedFleet },
+  async (studio) => {
+    const { page, layout, button, press } = studio;
+    await layout('Draw');
+    await page.getByRole('tab', { name: 'Project' }).click();
+    await page.locator('[role="treeitem"][data-path="hall.mcap"]').click();
+    await seen(page.getByText(/without a run: .*10 robots have projects of their own/));
+    // Where its robots are, at any instant.
+    const row = page.getByRole('table', { name: 'Things' }).getByRole('row', { name: /^r2 / });
+    await reads(row, /1\.70\s*1\.00/);
+    const robots = page.getByRole('combobox', { name: 'Robot whose plan is shown' });
+    await reads(robots, /^r1\s*r2/);
+    await button('To the next step of the plan').click();
+    // The first robot to meet the others gives tasks; the others still wait, and one drives later.
+    await seen(button('Why giveTask?'));
+    await robots.focus();
+    await press('ArrowDown');
+    await button('Why meet?').click();
+    const why = page.getByRole('tabpanel', { name: 'Why' });
+    await reads(why, /r2: the actor meet began/);
+    await look(studio, 'the recording of a fleet');
+    await press('Escape');
+    await gone(page.getByText('Showing hall.mcap.'));
+    await gone(row);
   },
 );

@@ -1823,6 +1823,8 @@ export interface Commands {
     /** the robot whose camera is asked for */
     picture?: string;
     trace?: Path;
+    /** whose plan, as for history.open */
+    robot?: string;
   }; out: {
     run: number;
     t: number;
@@ -1859,6 +1861,8 @@ export interface Commands {
     /** [node, address] */
     words?: Json[];
     trace?: Path;
+    /** whose plan, as for history.open */
+    robot?: string;
   }; out: {
     run: number;
     from: number;
@@ -1881,6 +1885,8 @@ export interface Commands {
   /** Reads a run that is kept as a file, and runs nothing: a trace, NAME.trace.jsonl, or what a recording says, NAME.mcap. */
   'history.open': { in: {
     trace: Path;
+    /** of a recording in which robots have projects of their own: whose plan; missing: that of the first */
+    robot?: string;
   }; out: {
     from: number;
     to: number;
@@ -1889,6 +1895,12 @@ export interface Commands {
     refused: number;
     /** the project has the plan of that name */
     plan: boolean;
+    /** that have projects of their own */
+    robots?: string[];
+    /** the one of them whose plan is shown */
+    robot?: string;
+    /** as the topic scene: the world of a recording */
+    scene?: Json;
   } };
   /** Keeps the trace of the run as a file of the project. */
   'history.save': { in: Record<never, never>; out: {
@@ -1930,6 +1942,8 @@ export interface Commands {
     t?: number;
     /** a recording that is shown without a run */
     trace?: Path;
+    /** of such a recording in which robots have projects of their own: whose actor, variable, event or end */
+    robot?: string;
   }; out: {
     /** the newest first */
     chain: WhyLink[];
@@ -2561,7 +2575,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.at': { may: 'look', kind: 'look', out: { run: 'number', t: 'number', to: 'number', plan: 'json?', before: 'number?', next: 'number?', values: '[HistoryWords; 256]', robots: '[json; 1024]', objects: '[json; 10000]', nodes: '[HistoryNode; 2048]', events: '[Happening; 2000]', exact: 'bool?', rays: 'text(1400000)?', picture: 'text(300000)?', picture_t: 'number?' } },
   'history.lanes': { may: 'look', kind: 'look', out: { run: 'number', from: 'number', to: 'number', lanes: '[HistoryLane; 600]', curves: '[HistoryCurve; 16]', loads: '[HistoryCurve; 64]', left_out: 'number' } },
   'history.ways': { may: 'look', kind: 'look', out: { run: 'number', ways: '[json; 1024]' } },
-  'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool' } },
+  'history.open': { may: 'look', kind: 'look', out: { from: 'number', to: 'number', lines: 'number', refused: 'number', plan: 'bool', robots: '[line(128); 1000]?', robot: 'line(128)?', scene: 'json?' } },
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'recording.list': { may: 'look', kind: 'look', out: { recordings: '[KeptRecording; 100]' } },
   'recording.open': { may: 'driver', kind: 'act', out: { again: 'bool?', why: 'line(1000)?' } },

@@ -15,6 +15,7 @@
 #include "record/past_run.hpp"
 #include "record/topics.hpp"
 #include "serve/edit/text_places.hpp"
+#include "serve/history/recorded_world.hpp"
 #include "serve/json.hpp"
 #include "wire/bytes.hpp"
 
@@ -103,16 +104,31 @@ private:
 class RecordingReader {
 public:
     RecordingReader(const KeptFile& file, const mcap::Reader& reader, record::RecordedRun recorded)
-        : file_(file), reader_(reader), recorded_(std::move(recorded)), files_(reader) {}
+        : file_(file),
+          reader_(reader),
+          recorded_(std::move(recorded)),
+          world_(reader, recorded_.about),
+          files_(reader) {}
 
     Result<std::shared_ptr<KeptRun>> read() {
         run_ = kept(file_);
+        run_->scene = world_.scene();
+        run_->robots = recorded_.about.robots;
+        TRY(choose_robot());
         begin();
         mcap::Cursor cursor(reader_);
         while (const auto message = cursor.next()) {
             const mcap::Channel* const channel = reader_.channel(message->channel);
             if (channel == nullptr) continue;
-            see(channel->topic, record::time_of(message->log_time), message->data);
+            const Time at = record::time_of(message->log_time);
+            const Below below = below_robot(channel->topic);
+            if (world_.see(channel->topic, at, message->data)) {
+                run_->history.record(world_.take());
+            } else if (below.robot.empty()) {
+                see(channel->topic, at, message->data);
+            } else {
+                see_of(below, at, message->data);
+            }
         }
         TRY(record::check_read(cursor, reader_));
         run_->history.passed(seconds_of(recorded_.end));
@@ -120,16 +136,99 @@ public:
     }
 
 private:
+    // A channel of a robot with a project of its own: "r4", "/plan/trace".
+    struct Below {
+        std::string_view robot, topic;
+    };
+    static Below below_robot(std::string_view topic) {
+        if (!topic.starts_with(record::kRobotTopics)) return {"", topic};
+        topic.remove_prefix(record::kRobotTopics.size());
+        const size_t end = std::min(topic.find('/'), topic.size());
+        return {topic.substr(0, end), topic.substr(end)};
+    }
+
+    Status choose_robot() {
+        const std::vector<std::string>& all = run_->robots;
+        plan_ = recorded_.about.plan;
+        if (all.empty() && file_.robot.empty()) return Status::done();
+        run_->robot = file_.robot.empty() ? all.front() : file_.robot;
+        if (std::ranges::find(all, run_->robot) == all.end()) {
+            return Error{Code::NotFound,
+                         fmt::format("{}: no robot {} with a project of its own is in this "
+                                     "recording{}",
+                                     file_.path, file_.robot,
+                                     all.empty() ? "" : "; the first that is there is " + all[0])};
+        }
+        plan_ = plan_of(run_->robot);
+        return Status::done();
+    }
+
+    // The file of its plan, which the first line of its trace names; empty: it has none.
+    std::string plan_of(const std::string& robot) const {
+        const mcap::Channel* const trace = reader_.find(std::string(record::kRobotTopics) + robot +
+                                                        std::string(record::kTraceTopic));
+        mcap::Cursor cursor(reader_);
+        while (const auto message = trace == nullptr ? std::nullopt : cursor.next()) {
+            if (message->channel != trace->id) continue;
+            const auto line = TraceLine::read(message->data);
+            return line.ok() ? recorded_plan(line.value().plan()) : "";
+        }
+        return {};
+    }
+
+    std::string recorded_plan(const std::string& name) const {
+        for (const mcap::Attachment& one : reader_.attachments()) {
+            if (!one.name.ends_with(".plan.json")) continue;
+            const Json json = Json::parse(one.data, nullptr, false);
+            if (json.is_object() && json.value("name", Json()) == name)
+                return std::string(one.name);
+        }
+        return {};
+    }
+
     void begin() {
         History::Beginning beginning{.kind = "trace", .name = file_.path, .plan_seconds = kForEver};
-        const std::string& plan = recorded_.about.plan;
-        if (plan.empty()) {
+        if (plan_.empty()) {
             run_->has_plan = true;
         } else {
-            beginning.plans = read_plans(plan, files_);
-            beginning.doc_of = doc_of_recorded(plan);
+            beginning.plans = read_plans(plan_, files_);
+            beginning.doc_of = doc_of_recorded(plan_);
         }
         run_->history.begin(std::move(beginning));
+    }
+
+    // Of other robots than the chosen one there are the events; what its nodes tell each other is
+    // known by their numbers alone.
+    void see_of(const Below& below, Time at, std::string_view data) {
+        const std::string robot(below.robot);
+        if (below.topic == record::kTraceTopic && robot == run_->robot) {
+            see_line(at, std::string(data));
+        } else if (below.topic == record::kEventsTopic) {
+            see_event(at, data, robot);
+        }
+    }
+
+    // "r4" said what its plan, or another host, sends; "r4/drive" what its node drive does.
+    std::string source_of(const std::string& robot, uint16_t node) {
+        if (node == 0) return robot;
+        const size_t index = size_t{node} - world_.first_node(robot);
+        const std::vector<std::string>& names = nodes_of(robot);
+        return robot + "/" + (index < names.size() ? names[index] : fmt::format("node {}", node));
+    }
+
+    // As their channels are named, which are in their order.
+    const std::vector<std::string>& nodes_of(const std::string& robot) {
+        const auto [found, is_new] = nodes_.try_emplace(robot);
+        if (!is_new) return found->second;
+        constexpr std::string_view kBegins = "/node/", kEnds = "/variables";
+        for (const mcap::Channel& channel : reader_.channels()) {
+            const Below below = below_robot(channel.topic);
+            if (below.robot != robot || !below.topic.starts_with(kBegins)) continue;
+            if (!below.topic.ends_with(kEnds)) continue;
+            const std::string_view name = below.topic.substr(kBegins.size());
+            found->second.emplace_back(name.substr(0, name.size() - kEnds.size()));
+        }
+        return found->second;
     }
 
     // The plan may lie in another folder of the project than then.
@@ -171,14 +270,15 @@ private:
                 std::get_if<record::PlanFiles>(&recorded_.inputs[input_].what);
             if (saved != nullptr) files_.save(saved->texts);
         }
-        run_->history.plan(++version_, read_plans(recorded_.about.plan, files_));
+        run_->history.plan(++version_, read_plans(plan_, files_));
     }
 
-    void see_event(Time at, std::string_view data) {
+    void see_event(Time at, std::string_view data, const std::string& robot = "") {
         const auto event = record::read_event(at, data);
         if (!event) return;
         Happened happened{.t = seconds_of(event->at), .kind = "event", .node = event->node};
         happened.source = event->by.empty() ? name_of(event->node) : kHostName;
+        if (!robot.empty()) happened.source = source_of(robot, event->node);
         happened.name = line_of(event->name, kNameMax);
         happened.args = event->arguments;
         run_->history.happen(std::move(happened));
@@ -220,20 +320,20 @@ private:
     const KeptFile& file_;
     const mcap::Reader& reader_;
     const record::RecordedRun recorded_;
+    RecordedWorld world_;
     FilesThen files_;
+    std::string plan_;  // its file in the recording
     std::shared_ptr<KeptRun> run_;
     std::map<uint16_t, std::string> names_;  // of nodes, as they described themselves
-    size_t input_ = 0;                       // the next
-    uint64_t version_ = 1;                   // of the plan
+    std::map<std::string, std::vector<std::string>> nodes_;  // names of those of a robot
+    size_t input_ = 0;                                       // the next
+    uint64_t version_ = 1;                                   // of the plan
 };
 
 Result<std::shared_ptr<KeptRun>> read_recording(const KeptFile& file) {
     const MappedFile mapped = TRY(MappedFile::open(file.real));
     const mcap::Reader reader = TRY(mcap::Reader::open(mapped.bytes(), file.path));
     record::RecordedRun recorded = TRY(record::read_recorded(reader));
-    TRY(record::check_no_fleet(recorded.about, file.path,
-                               ", which the studio does not show; in a terminal `vagus replay`, "
-                               "`vagus why` and `vagus compare` are asked about it"));
     return RecordingReader(file, reader, std::move(recorded)).read();
 }
 

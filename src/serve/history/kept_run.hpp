@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct KeptFile {
         std::string real, text, doc;
     };
     std::vector<Plan> plans = {};  // of the project
+    // Of a world whose robots have projects of their own: whose plan is shown; empty: that of the
+    // first.
+    std::string robot = {};
 };
 struct KeptRun {
     std::string path;
@@ -39,6 +43,9 @@ struct KeptRun {
     size_t lines = 0, refused = 0;  // of the trace
     // False: it is of a plan that the project does not have.
     bool has_plan = false;
+    std::vector<std::string> robots = {};  // that have projects of their own, of a recording
+    std::string robot = {};                // the one of them whose plan it has
+    Json scene = {};                       // as the topic scene; null: it is of no world
 };
 // Seconds, for a long one: uses nothing but the file. The Error names the file, and what in it
 // cannot be shown.

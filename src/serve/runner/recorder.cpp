@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "serve/runner/scene.hpp"
+#include "serve/talk/scene.hpp"
 
 namespace vagus::serve {
 

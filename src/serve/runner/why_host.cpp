@@ -17,8 +17,9 @@ namespace vagus::serve {
 namespace {
 
 Result<std::string> chain_of(const Json& asked) {
-    const auto question =
-        TRY(record::read_question(asked["question"].get<std::vector<std::string>>()));
+    auto question = TRY(record::read_question(asked["question"].get<std::vector<std::string>>()));
+    // Wheels are asked about by the name of their robot.
+    if (question.about != record::Question::About::Motor) question.robot = asked.value("robot", "");
     const std::string path = asked["file"];
     const MappedFile file = TRY(MappedFile::open(path));
     const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));

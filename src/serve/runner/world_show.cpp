@@ -6,7 +6,7 @@
 
 #include "base/time.hpp"
 #include "serve/runner/bus_clock.hpp"
-#include "serve/runner/scene.hpp"
+#include "serve/talk/scene.hpp"
 #include "wire/protocol.hpp"
 
 namespace vagus::serve {

@@ -105,11 +105,15 @@ void HistoryDesk::declare() {
     });
     desk_.command("history.open", [this](const Call& call) {
         open(call, [call](const KeptRun& run) {
-            call.done({{"from", run.history.from()},
-                       {"to", run.history.to()},
-                       {"lines", run.lines},
-                       {"refused", run.refused},
-                       {"plan", run.has_plan}});
+            Json opened = {{"from", run.history.from()},
+                           {"to", run.history.to()},
+                           {"lines", run.lines},
+                           {"refused", run.refused},
+                           {"plan", run.has_plan}};
+            if (!run.robots.empty()) opened["robots"] = run.robots;
+            if (!run.robots.empty()) opened["robot"] = run.robot;
+            if (!run.scene.is_null()) opened["scene"] = run.scene;
+            call.done(std::move(opened));
         });
     });
     desk_.command("history.save", [this](const Call& call) {
@@ -148,9 +152,9 @@ void HistoryDesk::forget() {
     next_.reset();
     now_ = std::make_unique<History>();
     for (auto& run : std::exchange(kept_, {})) drop(std::move(run));
-    for (const auto& [path, waiting] : std::exchange(waiting_, {})) {
+    for (const auto& [key, waiting] : std::exchange(waiting_, {})) {
         for (const Waiting& one : waiting) {
-            one.call.fail("unavailable", path + ": the project was closed while it was read");
+            one.call.fail("unavailable", key.path + ": the project was closed while it was read");
         }
     }
     desk_.topics().touch("history");
@@ -207,33 +211,39 @@ void HistoryDesk::tick(double t) {
 
 // ---- runs as files ----
 
+bool HistoryDesk::is(const KeptRun& run, const KeptKey& key) {
+    const bool first = run.robots.empty() || run.robot == run.robots.front();
+    return run.path == key.path && (run.robot == key.robot || (key.robot.empty() && first));
+}
+
 void HistoryDesk::open(const Call& call, const Use& use) {
     const std::string path = call.in["trace"];
     auto file = look_for(path);
     if (!file.ok()) return call.fail(file.error());
-    const auto known = std::find_if(kept_.begin(), kept_.end(),
-                                    [&](const auto& one) { return one->path == path; });
+    file.value().robot = call.in.value("robot", "");
+    const KeptKey key{path, file.value().robot};
+    const auto known = std::ranges::find_if(kept_, [&](const auto& one) { return is(*one, key); });
     if (known != kept_.end() && (*known)->written == file.value().written) {
         kept_.splice(kept_.begin(), kept_, known);
         return use(*kept_.front());
     }
-    std::vector<Waiting>& waiting = waiting_[path];
+    std::vector<Waiting>& waiting = waiting_[key];
     waiting.push_back({call, use});
     if (waiting.size() > 1) return;
     using Read = Result<std::shared_ptr<KeptRun>>;
     worked<Read>(
         post_, [file = std::move(file.value())] { return read_kept_run(file); },
-        [this, path](const Read& read) { opened(path, read); });
+        [this, key](const Read& read) { opened(key, read); });
 }
 
 // Of several requests while it was read each gets its answer.
-void HistoryDesk::opened(const std::string& path, const Result<std::shared_ptr<KeptRun>>& read) {
-    const auto waiting = waiting_.extract(path);
+void HistoryDesk::opened(const KeptKey& key, const Result<std::shared_ptr<KeptRun>>& read) {
+    const auto waiting = waiting_.extract(key);
     if (waiting.empty()) return;
     if (read.ok()) {
         for (auto one = kept_.begin(); one != kept_.end();) {
             const auto next = std::next(one);
-            if ((*one)->path == path) drop(std::move(*one)), kept_.erase(one);
+            if (is(**one, key)) drop(std::move(*one)), kept_.erase(one);
             one = next;
         }
         kept_.push_front(read.value());

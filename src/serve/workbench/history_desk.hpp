@@ -74,11 +74,17 @@ private:
         Call call;
         Use use;
     };
+    // A file, and whose plan of it is shown; no robot: that of the first, or of the only one.
+    struct KeptKey {
+        std::string path, robot;
+        auto operator<=>(const KeptKey&) const = default;
+    };
+    static bool is(const KeptRun& run, const KeptKey& key);
     History& told_at(double t);
     void declare();
     void ask(const Call& call, const Ask& then);
     void open(const Call& call, const Use& use);
-    void opened(const std::string& path, const Result<std::shared_ptr<KeptRun>>& read);
+    void opened(const KeptKey& key, const Result<std::shared_ptr<KeptRun>>& read);
     Result<KeptFile> look_for(const std::string& path) const;
     void drop(std::shared_ptr<KeptRun> run);
     Result<std::string> save();
@@ -91,8 +97,8 @@ private:
     std::unique_ptr<History> next_;  // of what has been opened and does not go yet
     uint64_t run_ = 0;
     std::list<std::shared_ptr<KeptRun>> kept_;  // the one that was asked for last first
-    // For files that are being read, by path.
-    std::map<std::string, std::vector<Waiting>> waiting_;
+    // For files that are being read.
+    std::map<KeptKey, std::vector<Waiting>> waiting_;
     const Worker::Post post_;
     double told_to_ = 0;
 };

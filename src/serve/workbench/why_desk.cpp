@@ -51,6 +51,7 @@ void WhyDesk::ask(const Call& call) {
     if (call.in["about"] != "end") question.push_back(call.in["name"]);
     Json asked = {{"question", std::move(question)}};
     if (call.in.contains("t")) asked["at"] = call.in["t"];
+    if (call.in.contains("robot")) asked["robot"] = call.in["robot"];
     questions_.ask(call, std::move(asked),
                    [this, call](const Json& answer) { tell(call, answer); });
 }
@@ -63,8 +64,10 @@ Json WhyDesk::shown_chain(const Json& links) {
     Json chain = Json::array();
     for (const Json& link : links) {
         const std::string place = text_in(link, "place", kPlaceMax);
+        const std::string robot = link.value("robot", "");
+        const std::string what = (robot.empty() ? "" : robot + ": ") + link.value("what", "");
         Json shown = {{"t", link["t"]},
-                      {"what", text_in(link, "what", kTextMax)},
+                      {"what", line_of(what, kTextMax)},
                       {"value", text_in(link, "value", kTextMax)},
                       {"place", place},
                       {"root", link["root"]}};

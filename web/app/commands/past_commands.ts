@@ -174,7 +174,8 @@ const onRobot = (studio: Studio) => studio.topics.get('robot', {})?.kind === 'bu
 /** Shows a run that is kept as a file: its plan at each instant, without a run. */
 export async function openTrace(studio: Studio, path: string): Promise<void> {
   try {
-    const { plan, refused } = await studio.past.openTrace(path);
+    const { plan, refused, scene } = await studio.past.openTrace(path);
+    if (scene !== undefined) revealPanel(studio.window, 'world');
     revealPanel(studio.window, 'timeline');
     if (!plan) toast(studio.window, 'warning', text.past.noPlan(path));
     if (refused > 0) toast(studio.window, 'warning', text.past.refused(path, refused));

@@ -11,6 +11,7 @@ import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { EarlierRuns } from './earlier_runs';
+import { RobotChoice } from './robot_choice';
 import { words } from './words';
 import { followNewest, showAll, useTimelineView, zoomBy } from './view_store';
 
@@ -31,6 +32,7 @@ export default function TimelineTools() {
   ] as const;
   return (
     <div className="topbar__tools">
+      <RobotChoice />
       <span className="tl__span num">{words.span(from.toFixed(1), to.toFixed(1))}</span>
       {tools.map(([tip, sign, act]) => (
         <Button key={tip} kind="plain" small tip={tip} icon={sign} onClick={act} />

@@ -6,7 +6,7 @@ import { kPlanNode, placeOf, pickName } from '../../../core/picks';
 import type { Span } from '../../../core/ring';
 import { newestSpan } from '../../../core/timeline';
 import { useChanges, useStudio, useTopic } from '../../hooks';
-import { useTraceName } from '../../past_hooks';
+import { useTraceName, useTraceOpen } from '../../past_hooks';
 import { useVariablesOf } from '../../robot_hooks';
 import type { CurveName } from './rows';
 import { useTimelineView, viewOf } from './view_store';
@@ -23,6 +23,7 @@ export function useLanes(shown: boolean, width: number) {
   const chosen = useTimelineView((view) => view.span);
   const history = useTopic('history', {});
   const trace = useTraceName();
+  const robot = useTraceOpen()?.robot;
   const from = history?.from ?? 0;
   const to = history?.to ?? 0;
   const run = history?.run ?? 0;
@@ -37,11 +38,12 @@ export function useLanes(shown: boolean, width: number) {
       width: Math.max(1, Math.min(4000, Math.round(width))),
       words: JSON.parse(words) as number[][],
       ...(trace === null ? {} : { trace }),
+      ...(robot === undefined ? {} : { robot }),
     };
     // What is over does not change; what goes on does while it is in sight.
     const until = trace === null ? Math.min(to, span.to) : 0;
     feed.want(ready ? wish : null, `${run} ${until}`);
-  }, [feed, ready, chosen, width, words, trace, run, from, to]);
+  }, [feed, ready, chosen, width, words, trace, robot, run, from, to]);
   const lanes = useSyncExternalStore(
     useMemo(() => (listener: () => void) => feed.changed.on(listener), [feed]),
     () => feed.lanes,

@@ -26,6 +26,7 @@ export const words = {
   smaller: 'Zoom out',
   earlier: 'Open a run before this one',
   asks: 'Looking for recordings…',
+  planOf: 'Robot whose plan is shown',
   noEarlier: 'No run before this one is recorded.',
   run: (number: number, when: string) => `Run ${number}, until ${when}`,
   compare: 'Compare with…',

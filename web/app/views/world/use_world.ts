@@ -12,7 +12,7 @@ import { posesThen, readPoses, readRays } from '../../../core/world/frames';
 import { WorldModel } from '../../../core/world/model';
 import { stageOfScene } from '../../../core/world/stage';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
-import { useMayAct, usePastTime } from '../../past_hooks';
+import { useMayAct, usePastTime, useScene } from '../../past_hooks';
 import { FileActs } from './file_acts';
 import { keptHand } from './kept_hand';
 import { LiveActs } from './live_acts';
@@ -27,14 +27,14 @@ export function useWorldModel(): WorldModel {
 
 /** Whether a world runs, or is at its start. */
 export function useHasScene(): boolean {
-  return (useTopic('scene', {})?.robots.length ?? 0) > 0;
+  return (useScene()?.robots.length ?? 0) > 0;
 }
 
 /** Follows the running world while it is seen. */
 export function useLive(model: WorldModel, on: boolean): void {
   const studio = useStudio();
   const drives = useMayAct();
-  const scene = useTopic('scene', on ? {} : null);
+  const scene = useScene(on);
   const world = useTopic('studio', {})?.project?.world;
   const looksBack = usePastTime() !== null;
   useEffect(() => {

@@ -4,7 +4,7 @@ import type { JsonFile } from '../../../core/session/json_file';
 import type { Point } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import { useStudio, useTopic } from '../../hooks';
-import { usePastTime } from '../../past_hooks';
+import { usePastTime, useTraceName } from '../../past_hooks';
 import { text } from '../../text';
 import { deskOf, useModel, type ShownWorld } from './desk';
 import { FlatView } from './flat_view';
@@ -35,6 +35,7 @@ export function WorldStage({
   const eye = useRef<Eye | null>(null);
   const options = useWorldOptions();
   const looksBack = usePastTime() !== null;
+  const isTrace = useTraceName() !== null;
   const sees = useTopic('scene', {})?.robots.some((one) => one.camera) ?? false;
   const [failed, setFailed] = useState(false);
   useOnDesk(frame, model, file);
@@ -65,7 +66,7 @@ export function WorldStage({
       )}
       <div className="world__over">
         {live && !looksBack ? <StatusChip model={model} /> : null}
-        {live && looksBack ? <p className="world__chip">{text.past.dashed}</p> : null}
+        {live && looksBack && !isTrace ? <p className="world__chip">{text.past.dashed}</p> : null}
         <PlacingNote model={model} />
         {children}
       </div>

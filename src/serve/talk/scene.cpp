@@ -1,4 +1,4 @@
-#include "serve/runner/scene.hpp"
+#include "serve/talk/scene.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

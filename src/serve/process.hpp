@@ -47,6 +47,8 @@ public:
     bool has_unsent() const { return sent_ < out_.size(); }
     // What has come whole.
     std::vector<Packet> receive();
+    // For the other end nobody is there any more.
+    void close();
     // The other end is gone, or speaks nonsense; what came before was given.
     bool closed() const { return closed_; }
     // To be waited on; -1 once closed.
@@ -55,7 +57,6 @@ public:
     void wait(int milliseconds) const;
 
 private:
-    void close();
     void read_some();
 
     int descriptor_ = -1;

@@ -15,6 +15,7 @@ import unittest
 import projects
 from cases import Case, poses
 from harness import GIVE_UP_AFTER, VAGUS, Bus, Missing, free_port, list_nodes, listening, run_vagus, simulated, vagus, wait_until
+from mcap import Recording
 from page import Closed, Studio
 
 KILLS = int(os.environ.get("VAGUS_KILLS") or 10)  # of each kind
@@ -175,6 +176,37 @@ class Death(Case):
         finally:
             self.page.news.release()
         raise Missing(f"{what} never came")
+
+    def recorded(self):
+        """A plan runs and is recorded; the file."""
+        def make(folder):
+            projects.write(folder, "rounds.plan.json", projects.PLAN)
+            projects.thymio(folder, plan="rounds.plan.json")
+        self.open(make).do("run.start")
+        self.wait(lambda: self.clock.value["t"] > 0.5 and self.plan.value["levels"], "a plan that runs")
+        (file,) = (self.folder / ".vagus" / "recordings").glob("run-*.mcap")
+        return file
+
+    def assert_whole(self, file):
+        recording = Recording(file)
+        self.assertTrue(recording.complete)
+        self.assertEqual(recording.json("/vagus/input")[-1]["do"], "end")
+        self.assertEqual(recording.json("/plan/trace")[-1]["kind"], "plan-end")
+
+    def test_a_recording_is_completed_when_the_server_is_asked_to_end(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number.name):
+                file = self.recorded()
+                self.studio.program.signal(number)
+                self.assertEqual(self.studio.program.wait_end(), 0)
+                self.assert_whole(file)
+
+    def test_a_recording_is_completed_when_its_project_is_left(self):
+        file = self.recorded()
+        (run,) = self.studio.children()
+        self.page.do("project.open", path=str(projects.thymio(self.studio.folder / "another")))
+        self.until(lambda: is_gone(run), "the end of the run")
+        self.assert_whole(file)
 
     def test_a_server_that_is_asked_to_end_stops_the_robot_on_its_bus(self):
         arena = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-arena-"))

@@ -107,7 +107,7 @@ talk::Open Run::open_order(const RunOrder& order) {
 }
 
 void Run::close() {
-    child_.reset();
+    let_end();
     forget_asked("the run has ended");
     forget_held();
     breakpoints_told_({});
@@ -124,6 +124,22 @@ void Run::close() {
     desk_.topics().touch("scene");
 }
 
+// What it was told last is read before the end of its pipe. One that hangs is killed later.
+void Run::let_end() {
+    if (!child_) return;
+    child_->pipe().flush();
+    child_->pipe().close();
+    if (closed_.size() == kClosedMax) closed_.erase(closed_.begin());
+    closed_.push_back({std::move(child_), std::nullopt});
+}
+
+void Run::end_closed() {
+    std::erase_if(closed_, [this](Closed& one) {
+        if (!one.until) one.until = now_ + kClosedEndsWithin;
+        return one.process->ended() || now_ >= *one.until;
+    });
+}
+
 void Run::give_up(const std::string& what) {
     if (child_) be_over(what);
 }
@@ -138,6 +154,7 @@ void Run::kill() {
 
 void Run::tick(Time now) {
     now_ = now;
+    end_closed();
     if (!child_) return;
     child_->pipe().flush();
     hear_all();
@@ -153,6 +170,7 @@ void Run::tick(Time now) {
 }
 
 Time Run::next_tick() const {
+    if (!closed_.empty()) return now_ + 5ms;
     if (!child_) return Time::max();
     // The socket is watched for reading only, and a process that closed it is about to end.
     const Pipe& pipe = child_->pipe();

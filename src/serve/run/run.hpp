@@ -29,7 +29,9 @@ namespace vagus::serve {
 
 constexpr Duration kHangingAfter = 2s;  // without a word: shown, with a button that ends it
 constexpr Duration kSilentAfter = 300ms;
-constexpr Duration kClockAgainAfter = 1s;  // of a clock that says nothing new
+constexpr Duration kClockAgainAfter = 1s;   // of a clock that says nothing new
+constexpr Duration kClosedEndsWithin = 1s;  // by itself; then it is killed
+constexpr size_t kClosedMax = 8;            // that end at a time; the oldest is killed
 
 struct RunOrder {
     std::string world;                      // paths of this computer
@@ -113,7 +115,10 @@ public:
     }
 
     Status open(const RunOrder& order, Time now);
+    // Nothing of it is heard or told from here on. Its process ends its plan, completes its
+    // recording and ends: within kClosedEndsWithin of ticks, or it is killed.
     void close();
+    bool closed_are_ending() const { return !closed_.empty(); }
     bool is_open() const { return child_ != nullptr; }
     // A simulated world is open and can be talked to.
     bool has_world() const { return has_world_ && is_open(); }
@@ -228,6 +233,8 @@ private:
     template <typename Request>
     void ask(Request order, Answered answered);
     void forget_run();
+    void let_end();
+    void end_closed();
     talk::Open open_order(const RunOrder& order);
     const std::vector<talk::SceneRobot>& robots() const;
     void show_what_is_watched();
@@ -300,6 +307,11 @@ private:
     bool rests_ = true;
     uint64_t deaths_ = 0, late_checks_ = 0;
 
+    struct Closed {
+        std::unique_ptr<RunProcess> process;
+        std::optional<Time> until;  // set by the first tick
+    };
+    std::vector<Closed> closed_;
     std::unique_ptr<RunProcess> child_;
     State state_ = State::None;
     std::string why_;

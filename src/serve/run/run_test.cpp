@@ -14,14 +14,18 @@ using testing::HasSubstr;
 
 // Without a process behind it: the test holds the other end of its pipe.
 struct Scripted final : RunProcess {
-    Scripted(int descriptor, bool& its_killed, std::optional<ChildEnd>& its_end)
-        : own(descriptor), killed(its_killed), end(its_end) {}
+    Scripted(int descriptor, bool& its_killed, std::optional<ChildEnd>& its_end, size_t& count)
+        : own(descriptor), killed(its_killed), end(its_end), alive(count) {
+        ++alive;
+    }
+    ~Scripted() override { --alive; }
     Pipe& pipe() override { return own; }
     std::optional<ChildEnd> ended() override { return end; }
     void kill() override { killed = true; }
     Pipe own;
     bool& killed;
     std::optional<ChildEnd>& end;
+    size_t& alive;
 };
 
 class RunTest : public testing::Test {
@@ -38,7 +42,7 @@ protected:
         EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
         runner.emplace(pair[1]);
         end.reset();
-        return std::unique_ptr<RunProcess>(std::make_unique<Scripted>(pair[0], killed, end));
+        return std::unique_ptr<RunProcess>(std::make_unique<Scripted>(pair[0], killed, end, alive));
     }
     // Orders of a kind that the process got.
     template <typename Order>
@@ -86,6 +90,7 @@ protected:
 
     Time now = 1s;
     double wall = 1e12;
+    size_t alive = 0;  // processes
     Desk desk{Access("0123456789abcdef", "fedcba9876543210"),
               {.send = [this](ClientId, bool binary,
                               std::string bytes) { (binary ? frames : texts).push_back(bytes); },
@@ -172,6 +177,35 @@ TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
     EXPECT_EQ(answers, deaths);
     EXPECT_EQ(run.state(), serve::Run::State::Dead);
     EXPECT_EQ(run.deaths(), 1u);
+}
+
+// It completes its recording then. Whoever closed it waits for no process that does not end.
+TEST_F(RunTest, AProcessThatIsClosedEndsByItselfOrAtItsLimit) {
+    open();
+    run.close();
+    EXPECT_FALSE(run.is_open());
+    (void)runner->receive();
+    EXPECT_TRUE(runner->closed());
+    run.tick(now += 1h);  // the limit counts from here
+    EXPECT_TRUE(run.closed_are_ending());
+    end = ChildEnd{.good = true, .what = "exited with status 0"};
+    run.tick(now += 1ms);
+    EXPECT_FALSE(run.closed_are_ending());
+    open();
+    run.close();
+    run.tick(now += 1ms);
+    run.tick(now += kClosedEndsWithin - 1ms);
+    EXPECT_TRUE(run.closed_are_ending());
+    run.tick(now += 1ms);
+    EXPECT_FALSE(run.closed_are_ending());
+}
+
+TEST_F(RunTest, TheOldestOfTooManyThatAreClosedIsKilled) {
+    for (size_t i = 0; i <= kClosedMax; ++i) {
+        open();
+        run.close();
+        EXPECT_EQ(alive, std::min(i + 1, kClosedMax));
+    }
 }
 
 // The server lives, the process does not, and everybody is told what it sent.

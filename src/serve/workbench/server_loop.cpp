@@ -76,6 +76,17 @@ void ServerLoop::end() {
     }
     bench_->close();
     desk_->tick(links_.now());
+    complete_recordings();
+}
+
+// By the processes of runs, which have nothing to do with the robot any more. What has not ended
+// by then is killed with this server.
+void ServerLoop::complete_recordings() {
+    const Time until = links_.now() + kClosedEndsWithin;
+    while (bench_->runs_are_ending() && links_.now() < until) {
+        (void)links_.poll(std::min(until, bench_->next_tick(links_.now())));
+        guarded([&] { bench_->tick(links_.now()); });
+    }
 }
 
 }  // namespace vagus::serve

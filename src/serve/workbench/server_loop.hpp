@@ -50,6 +50,7 @@ private:
     void turn(const Beside& beside);
     void guarded(const std::function<void()>& part);
     void end();
+    void complete_recordings();
 
     net::Links links_;
     std::optional<Door> door_;

@@ -95,8 +95,10 @@ public:
         const std::string& by = kTheServer);
     // The newest copy of an example, or a fresh one.
     Status open_example(const std::string& id, Time now);
-    // At once, the last act of a server.
+    // At once, the last act of a server; then it ticks on while processes of runs complete their
+    // recordings.
     void close();
+    bool runs_are_ending() const { return run_.closed_are_ending(); }
 
     void hear(const net::Event& event);
     void tick(Time now);

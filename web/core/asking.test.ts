@@ -38,7 +38,12 @@ test('what cannot be answered says why, and the name and the instant are left ou
   });
   await asking.ask({ about: 'end', name: '', t: null });
   await asking.ask({ about: 'actor', name: 'follow', t: 2.5 });
-  expect(inputs).toEqual([{ about: 'end' }, { about: 'actor', name: 'follow', t: 2.5 }]);
+  await asking.ask({ about: 'event', name: 'seen', t: 2.5, robot: 'r4' });
+  expect(inputs).toEqual([
+    { about: 'end' },
+    { about: 'actor', name: 'follow', t: 2.5 },
+    { about: 'event', name: 'seen', t: 2.5, robot: 'r4' },
+  ]);
   expect(asking.chain).toBeNull();
   expect(asking.trouble).toBe('nothing has run yet');
   expect(asking.waits).toBe(false);

@@ -15,6 +15,8 @@ export interface Question {
   name: string;
   /** The instant that is shown; null: now. */
   t: number | null;
+  /** Of several with plans, where it is not the one whose plan is shown. */
+  robot?: string | undefined;
 }
 
 export class Asking {
@@ -52,10 +54,11 @@ export class Asking {
   async ask(question: Question): Promise<void> {
     this.view = 'why';
     this.show(question, null, '');
-    const { about, name, t } = question;
+    const { about, name, t, robot } = question;
     const input: Commands['why.ask']['in'] = { about };
     if (name !== '') input.name = name;
     if (t !== null) input.t = t;
+    if (robot !== undefined) input.robot = robot;
     try {
       const { chain } = await this.send(input);
       if (this.question === question) this.show(question, chain, '');
@@ -74,7 +77,7 @@ export class Asking {
 
 export const askingOf: (studio: Studio) => Asking = deskFor((studio: Studio) => {
   const asking = new Asking((input) => {
-    return studio.send('why.ask', { ...input, ...studio.past.asked });
+    return studio.send('why.ask', { ...studio.past.asked, ...input });
   });
   studio.connection.renewed.on(() => asking.forget());
   return asking;

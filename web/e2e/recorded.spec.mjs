@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
 import { root, vagusProgram } from './support/server.mjs';
-import { gone, reads, seen, test } from './support/studio.mjs';
+import { boxOf, gone, reads, seen, test } from './support/studio.mjs';
 /** @import { TestContext } from './support/studio.mjs' */
 
 const plan = JSON.stringify({
@@ -87,6 +87,14 @@ test(
     const why = page.getByRole('tabpanel', { name: 'Why' });
     await reads(why, /r2: the actor meet began/);
     await look(studio, 'the recording of a fleet');
+    // An event is asked of the robot on whose bus it was.
+    const slider = page.getByRole('slider', { name: 'Instant that is shown' });
+    const { x, y, width } = await boxOf(slider);
+    await page.mouse.click(x + width / 2, y + 8);
+    await page.getByRole('tab', { name: /^Events/ }).click();
+    await page.getByText('r4/drive', { exact: true }).first().click();
+    await press('w');
+    await reads(why, /r4: the script of drive emitted drive\./);
     await press('Escape');
     await gone(page.getByText('Showing hall.mcap.'));
     await gone(row);

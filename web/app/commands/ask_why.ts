@@ -1,17 +1,30 @@
 import type { About } from '../../core/asking';
 import { kPlanNode, type Pick } from '../../core/picks';
 import type { Studio } from '../../core/studio';
+import type { Happening } from '../../protocol/messages';
 import { revealPanel } from '../../core/window_state';
 
 /** Asks it of the instant that is shown, and shows the answer. What it needs is loaded then. */
-export async function askWhy(studio: Studio, about: About, name = ''): Promise<void> {
+export async function askWhy(
+  studio: Studio,
+  about: About,
+  name = '',
+  robot?: string,
+): Promise<void> {
   try {
     const { askingOf } = await import('../../core/asking');
-    void askingOf(studio).ask({ about, name, t: studio.past.at });
+    void askingOf(studio).ask({ about, name, t: studio.past.at, robot });
     revealPanel(studio.window, 'why');
   } catch (problem) {
     studio.tell(problem);
   }
+}
+
+/** The same of an event; in a recording of several robots, of the one on whose bus it was. */
+export function askWhyEvent(studio: Studio, { name, source }: Happening): void {
+  const [robot = ''] = source.split('/');
+  const is = studio.past.trace?.robots.includes(robot);
+  void askWhy(studio, 'event', name, is ? robot : undefined);
 }
 
 /** Shows where it is asked when something was decided. */

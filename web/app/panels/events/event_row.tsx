@@ -2,7 +2,7 @@ import { IconHelpCircle } from '@tabler/icons-react';
 import { memo } from 'react';
 import type { Happening } from '../../../protocol/messages';
 import { shownTime } from '../../../core/numbers';
-import { askWhy } from '../../commands/ask_why';
+import { askWhyEvent } from '../../commands/ask_why';
 import { useStudio } from '../../hooks';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
@@ -28,13 +28,14 @@ export const EventRow = memo(function EventRow({ item }: { item: Happening }) {
           <b className="event__kind">{kinds[kind]}</b> {name} {item.text}
         </span>
       )}
-      {kind === 'event' ? <WhyButton name={name} /> : null}
+      {kind === 'event' ? <WhyButton item={item} /> : null}
     </div>
   );
 });
 
-function WhyButton({ name }: { name: string }) {
+function WhyButton({ item }: { item: Happening }) {
   const studio = useStudio();
+  const { name } = item;
   return (
     <button
       type="button"
@@ -43,7 +44,7 @@ function WhyButton({ name }: { name: string }) {
       aria-label={text.why.row(name)}
       aria-keyshortcuts="W"
       title={`${text.why.row(name)}  (W)`}
-      onClick={() => void askWhy(studio, 'event', name)}
+      onClick={() => askWhyEvent(studio, item)}
     >
       <IconHelpCircle size={14} stroke={kStroke} aria-hidden />
     </button>

@@ -2,7 +2,7 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import type { Happening } from '../../../protocol/messages';
 import { Filtered, passes } from '../../../core/happenings';
 import { shortCount } from '../../../core/numbers';
-import { askWhy, isWhyKey } from '../../commands/ask_why';
+import { askWhyEvent, isWhyKey } from '../../commands/ask_why';
 import { useChanges, useStudio, useTopic, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { VirtualRows } from '../../parts/virtual_rows';
@@ -50,8 +50,8 @@ function EventList() {
           keyOf={(item) => item.number}
           newestFirst
           className="events__list"
-          onRowKey={({ kind, name }, event) => {
-            if (kind === 'event' && isWhyKey(event)) void askWhy(studio, 'event', name);
+          onRowKey={(item, event) => {
+            if (item.kind === 'event' && isWhyKey(event)) askWhyEvent(studio, item);
           }}
         >
           {(item) => <EventRow item={item} />}

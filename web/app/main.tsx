@@ -34,6 +34,7 @@ import { followTests } from './follow_tests';
 import { StudioContext } from './hooks';
 import { PageGuard } from './page_guard';
 import { keptTheme } from './window_life';
+import { onApple } from './parts/keys_shown';
 
 function start(): void {
   const theme = keptTheme();
@@ -46,7 +47,7 @@ function start(): void {
     crypto.getRandomValues(new Uint32Array(4)).join('-'),
   );
   const studio = new Studio(browserWorld(address.href), identity, takeToken(), () => Date.now());
-  studio.registry.isApple = /Mac|iPhone|iPad/.test(navigator.platform);
+  studio.registry.isApple = onApple;
   for (const make of [
     editCommands,
     fileCommands,

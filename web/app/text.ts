@@ -1,6 +1,8 @@
 // Words that a person reads, in one place, for translation. What the server says is its own. Parts of the page
 // that are loaded apart may have words beside them, in a words.ts: what comes first stays small.
 
+import { keysShown } from './parts/keys_shown';
+
 const s = (count: number, one: string, many: string) => `${count} ${count === 1 ? one : many}`;
 
 /** A page that has told no name is called so by the server. */
@@ -342,7 +344,7 @@ export const text = {
       `No node on ${name} yet. Switch the robot on; its variables appear here by themselves.`,
     world: 'No world. Press F5 to start the simulator.',
     network: 'No bus. Choose a target at the top.',
-    documents: 'Open a file from the project, or press Ctrl+K.',
+    documents: `Open a file from the project, or press ${keysShown('Ctrl+K')}.`,
     files: 'No file yet. Press + to create one.',
     search: 'Type what you look for. Enter searches all files.',
     nothingFound: (what: string) => `“${what}” is nowhere in the project.`,
@@ -567,8 +569,8 @@ export const text = {
     arguments: 'Arguments, separated by spaces',
     edit: (name: string) => `Change ${name}`,
     remove: (name: string) => `Delete ${name}`,
-    up: (name: string) => `${name} further up (Alt+Up)`,
-    down: (name: string) => `${name} further down (Alt+Down)`,
+    up: (name: string) => `${name} further up (${keysShown('Alt+Up')})`,
+    down: (name: string) => `${name} further down (${keysShown('Alt+Down')})`,
     save: 'Change',
     renamed: (places: number, others: readonly string[]) =>
       `Changed in ${s(places, 'place', 'places')}${others.length > 0 ? `, also of ${others.join(', ')}` : ''}.`,
@@ -707,8 +709,7 @@ export const text = {
     nothingToUndo: 'Nothing was changed by hand in this run.',
     nothingToRedo: 'Nothing was undone in this run.',
     canvas: (name: string) => `World ${name}`.trim(),
-    canvasHelp:
-      'N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, brackets or Ctrl and arrows turn, Delete deletes.',
+    canvasHelp: `N and Shift+N select, arrows move by 1 cm, with Shift by 10 cm, ${keysShown('Ctrl')} and arrows or brackets turn, Delete deletes.`,
     kinds: {
       robot: 'Robot',
       wall: 'Wall',

@@ -54,9 +54,23 @@ export function useKeys(): void {
         !types && target instanceof Element && target.closest(`[data-place~="${place}"]`) !== null;
       if (registry.press(event, types, isWithin)) event.preventDefault();
     };
+    addEventListener('keydown', leaveComposing, true);
     addEventListener('keydown', pressed);
-    return () => removeEventListener('keydown', pressed);
+    return () => {
+      removeEventListener('keydown', leaveComposing, true);
+      removeEventListener('keydown', pressed);
+    };
   }, [registry]);
+}
+
+/**
+ * While a word is composed its keys are the input method's: Enter takes the word, and neither ends the field
+ * nor sends a form; Escape gives up the word alone. The editor knows that by itself.
+ */
+function leaveComposing(event: KeyboardEvent): void {
+  if (!event.isComposing) return;
+  if (event.target instanceof Element && event.target.closest('.cm-editor')) return;
+  event.stopImmediatePropagation();
 }
 
 function typesIn(target: EventTarget | null): boolean {

@@ -25,6 +25,9 @@ export function normalKey(text: string): string {
 export function pressedKeys(press: KeyPress, isApple = false): string[] {
   const { key, altKey, shiftKey } = press;
   const isOne = [...key].length === 1;
+  // Option alone types. With Control, which types nothing, it is the Alt of other keyboards.
+  const own = isApple && altKey && press.ctrlKey && !press.metaKey ? letterOf(press) : undefined;
+  if (own !== undefined) return [spell(false, true, shiftKey, own)];
   const isOption = isApple && altKey && !press.ctrlKey && !press.metaKey;
   const isTyped = isOption || (press.getModifierState?.('AltGraph') ?? false);
   if (isTyped && (isOne || key === 'Dead')) return [];
@@ -33,10 +36,19 @@ export function pressedKeys(press: KeyPress, isApple = false): string[] {
   const found = [spell(control, altKey, shiftKey, letter)];
   if (isOne && shiftKey && !/\p{L}/u.test(key)) found.push(spell(control, altKey, false, letter));
   // A keyboard of another script has the letters of ours at their places.
-  const place = /^Key([A-Z])$/.exec(press.code)?.[1];
+  const place = placeOf(press);
   if (place && isOne && /\p{L}/u.test(key) && !/\p{Script=Latin}/u.test(key))
     found.push(spell(control, altKey, shiftKey, place));
   return found;
+}
+
+/** What is on the key, also where Option makes another letter of it. */
+function letterOf(press: KeyPress): string | undefined {
+  return /^[a-z]$/i.test(press.key) ? press.key.toUpperCase() : placeOf(press);
+}
+
+function placeOf({ code }: KeyPress): string | undefined {
+  return /^Key([A-Z])$/.exec(code)?.[1];
 }
 
 /** True if the combination would be typed into a text rather than command something. */

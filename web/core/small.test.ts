@@ -80,6 +80,17 @@ describe('keys', () => {
     expect(pressedKeys(press('l', { code: 'KeyL', altKey: true }))).toEqual(['Alt+L']);
     expect(pressedKeys(press('F12', { altKey: true }), true)).toEqual(['Alt+F12']);
   });
+  test('OnAKeyboardOfAppleControlAndOptionAreAlt', () => {
+    const held = { ctrlKey: true, altKey: true };
+    expect(pressedKeys(press('¬', { ...held, code: 'KeyL' }), true)).toEqual(['Alt+L']);
+    expect(pressedKeys(press('ß', { ...held, code: 'KeyS' }), true)).toEqual(['Alt+S']);
+    // An AZERTY one of them tells its own letter.
+    expect(pressedKeys(press('a', { ...held, code: 'KeyQ' }), true)).toEqual(['Alt+A']);
+    const shifted = press('Dead', { ...held, shiftKey: true, code: 'KeyU' });
+    expect(pressedKeys(shifted, true)).toEqual(['Alt+Shift+U']);
+    expect(pressedKeys(press('[', { ...held, code: 'Digit5' }), true)).toEqual(['Ctrl+Alt+[']);
+    expect(pressedKeys(press('l', { ...held, code: 'KeyL' }))).toEqual(['Ctrl+Alt+L']);
+  });
   test('WhatRedoesNeverUndoesEvenIfNothingIsToRedo', () => {
     const registry = new Registry();
     const undo = { id: 'undo', title: '', group: '', keys: ['Ctrl+Z'], run: vi.fn() };

@@ -457,4 +457,16 @@ test('keys of a German, a Swiss and a French keyboard', plan, async (studio) => 
   await keyIn(editor, { key: 'z', code: 'KeyY', keyCode: 90, shiftKey: true, ...caps });
   await until('redone', typed);
   assert.ok(await keyIn(editor, { key: '@', code: 'KeyQ', keyCode: 81, modifierAltGraph: true }));
+  // As browsers on Windows that tell of AltGr as of Ctrl and Alt.
+  const windows = { ctrlKey: true, altKey: true, modifierAltGraph: true };
+  for (const [key, code, keyCode] of [
+    ['[', 'Digit8', 56],
+    [']', 'Digit9', 57],
+    ['{', 'Digit7', 55],
+    ['}', 'Digit0', 48],
+    ['\\', 'Minus', 219],
+    ['~', 'BracketRight', 187],
+    ['|', 'IntlBackslash', 226],
+  ])
+    assert.ok(await keyIn(editor, { key, code, keyCode, ...windows }), `${key} is not typed`);
 });

@@ -14,6 +14,7 @@ import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
 import { text } from '../text';
+import { keysShown } from '../parts/keys_shown';
 
 /** At the right of the documents' tabs: what can be done with the node of the script. */
 export function DocumentTools({ doc }: { doc: Doc }) {
@@ -82,7 +83,7 @@ export function DocumentTools({ doc }: { doc: Doc }) {
         kind="plain"
         small
         disabled={off}
-        tip={`${text.commands['node.load']}  (Alt+Shift+U)`}
+        tip={`${text.commands['node.load']}  (${keysShown('Alt+Shift+U')})`}
         icon={<IconUpload size={14} stroke={kStroke} />}
         onClick={() => run('node.load')}
         aria-label={text.editor.upload}

@@ -1,5 +1,6 @@
 import type { ButtonHTMLAttributes, ReactNode } from 'react';
 import { Kbd } from './kbd';
+import { keysShown } from './keys_shown';
 
 export interface ButtonProps extends ButtonHTMLAttributes<HTMLButtonElement> {
   kind?: 'normal' | 'primary' | 'plain';
@@ -44,5 +45,5 @@ export function Button({
 /** What overlay/tips.tsx shows beside an element that has these attributes. */
 export function tipOf(label: string | undefined, keys?: string): { 'data-tip'?: string } {
   if (!label) return {};
-  return { 'data-tip': keys ? `${label}  (${keys})` : label };
+  return { 'data-tip': keys ? `${label}  (${keysShown(keys)})` : label };
 }

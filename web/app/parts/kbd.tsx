@@ -1,3 +1,5 @@
+import { keysShown } from './keys_shown';
+
 /** As they are on the keys. */
 const arrows: Readonly<Record<string, string>> = {
   ArrowLeft: '←',
@@ -7,5 +9,9 @@ const arrows: Readonly<Record<string, string>> = {
 };
 
 export function Kbd({ keys }: { keys: string }) {
-  return <span className="kbd">{keys.replace(/Arrow\w+/, (name) => arrows[name] ?? name)}</span>;
+  return (
+    <span className="kbd">
+      {keysShown(keys).replace(/Arrow\w+/, (name) => arrows[name] ?? name)}
+    </span>
+  );
 }

@@ -5,6 +5,7 @@ import type { Doing, Sort } from '../../../core/fleet';
 import type { Verb } from '../../../core/fleet_desk';
 import type { Rollout } from '../../../core/rollout';
 import { counted } from '../../text';
+import { keysShown } from '../../parts/keys_shown';
 
 const robots = (count: number) => counted(count, 'robot', 'robots');
 const listed = (names: readonly string[]) =>
@@ -56,8 +57,7 @@ export const words = {
     version: 'Version',
   } satisfies Record<Sort, string>,
   tiles: 'Robots',
-  tilesHelp:
-    'Arrows go from robot to robot, Space chooses, Shift extends, Ctrl+A chooses all, Enter opens its studio.',
+  tilesHelp: `Arrows go from robot to robot, Space chooses, Shift extends, ${keysShown('Ctrl+A')} chooses all, Enter opens its studio.`,
   none: 'No robot has been in this fleet yet',
   noneHelp: 'Start one: vagus serve PROJECT --start --fleet',
   noMatch: 'No robot matches what is looked for.',

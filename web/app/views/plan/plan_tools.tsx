@@ -19,6 +19,7 @@ import { ExportMenu } from './export_menu';
 import { usePlanDesk } from './plan_desk';
 import { TryButton } from './try/try_button';
 import { togglePlanOption, usePlanOptions, type PlanOptions } from './plan_options';
+import { keysShown } from '../../parts/keys_shown';
 
 const size = { size: 14, stroke: kStroke };
 
@@ -37,7 +38,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         kind="plain"
         small
         disabled={!drives || !file?.canUndo}
-        tip={`${words.undo}  (Ctrl+Z)`}
+        tip={`${words.undo}  (${keysShown('Ctrl+Z')})`}
         icon={<IconArrowBackUp {...size} />}
         onClick={() => void studio.registry.run('draw.undo')}
       />
@@ -45,7 +46,7 @@ export function PlanTools({ doc }: { doc: Doc }) {
         kind="plain"
         small
         disabled={!drives || !file?.canRedo}
-        tip={`${words.redo}  (Ctrl+Y)`}
+        tip={`${words.redo}  (${keysShown('Ctrl+Y')})`}
         icon={<IconArrowForwardUp {...size} />}
         onClick={() => void studio.registry.run('draw.redo')}
       />

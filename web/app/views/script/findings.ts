@@ -22,6 +22,7 @@ import {
 import type { Finding, Fix } from '../../../protocol/messages';
 import { mistakeInLine } from '../../../core/plan/formula_place';
 import { offsetOf } from './places';
+import { keysShown } from '../../parts/keys_shown';
 
 export interface FindingsShown {
   findings: readonly Finding[];
@@ -214,7 +215,7 @@ class Sentence extends WidgetType {
     if (first) {
       const keys = document.createElement('span');
       keys.className = 'kbd';
-      keys.textContent = 'Alt+Enter';
+      keys.textContent = keysShown('Alt+Enter');
       button.append(keys);
     }
     button.onclick = () => this.onFix(this.finding, fix);

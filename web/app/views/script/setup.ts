@@ -77,7 +77,7 @@ export function makeState(options: {
         ...closeBracketsKeymap,
         ...ownKeys(),
         ...searchKeymap,
-        ...foldKeymap,
+        ...foldKeymap.filter(({ key }) => !kTyped.has(key ?? '')),
         ...completionKeymap,
         indentWithTab,
       ]),
@@ -148,6 +148,9 @@ export function backKeys(isApple: boolean, act: (act: 'undo' | 'redo') => void):
     }),
   ];
 }
+
+/** On Windows AltGr is Ctrl+Alt as well: German, French and Spanish keyboards type brackets by it. */
+const kTyped: ReadonlySet<string> = new Set(['Ctrl-Alt-[', 'Ctrl-Alt-]']);
 
 /** The studio's own keys come first: what it uses is left out here. */
 function ownKeys() {

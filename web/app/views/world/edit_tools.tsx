@@ -12,6 +12,7 @@ import { CommandItem, StudioMenu } from '../../parts/menu';
 import { text } from '../../text';
 import { toggleOption, useWorldOptions } from './options';
 import { formWords } from './form_words';
+import { keysShown } from '../../parts/keys_shown';
 
 const words = text.world;
 const size = { size: 14, stroke: kStroke };
@@ -111,7 +112,7 @@ function UndoButtons(props: {
         kind="plain"
         small
         disabled={!props.canUndo}
-        tip={`${formWords.undo}  (Ctrl+Z)`}
+        tip={`${formWords.undo}  (${keysShown('Ctrl+Z')})`}
         icon={<IconArrowBackUp {...size} />}
         onClick={props.undo}
       />
@@ -119,7 +120,7 @@ function UndoButtons(props: {
         kind="plain"
         small
         disabled={!props.canRedo}
-        tip={`${formWords.redo}  (Ctrl+Y)`}
+        tip={`${formWords.redo}  (${keysShown('Ctrl+Y')})`}
         icon={<IconArrowForwardUp {...size} />}
         onClick={props.redo}
       />

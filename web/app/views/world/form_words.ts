@@ -1,5 +1,7 @@
 // Words of the document of a world and its forms: apart from text.ts, as they come with them.
 
+import { keysShown } from '../../parts/keys_shown';
+
 export const formWords = {
   inRun: 'in this run',
   follow: 'Follow',
@@ -63,7 +65,7 @@ export const formWords = {
   undo: 'Undo',
   redo: 'Redo',
   snap: 'Snap',
-  snapHelp: 'To 5 cm and 15°. Hold Alt to ignore snapping.',
+  snapHelp: `To 5 cm and 15°. Hold ${keysShown('Alt')} to ignore snapping.`,
   notRunning: 'The world is stopped.',
   notRunningHelp: 'Press F5 to start the simulator; or edit the world as its file says.',
   editIt: 'Edit',

@@ -15,6 +15,7 @@ import { Swatch } from './thing_list';
 import { WorldForm } from './world_form';
 import { entryText, nameOfThing } from './words';
 import { formWords } from './form_words';
+import { keysShown } from '../../parts/keys_shown';
 
 const words = text.world;
 
@@ -87,7 +88,7 @@ function Head({ world, entry }: { world: ShownWorld; entry: string | null }) {
           kind="plain"
           small
           disabled={!drives}
-          tip={`${formWords.copy}  (Ctrl+D)`}
+          tip={`${formWords.copy}  (${keysShown('Ctrl+D')})`}
           icon={<IconCopy size={14} stroke={kStroke} />}
           onClick={run('world.copy')}
         />

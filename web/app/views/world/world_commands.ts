@@ -69,10 +69,10 @@ export function worldCommands(studio: Studio): Command[] {
     arrow('world.farUp', 'Shift+ArrowUp', 0, 1, true),
     arrow('world.farDown', 'Shift+ArrowDown', 0, -1, true),
     // Brackets are typed with AltGr on many keyboards, which no command is on.
-    make('world.turnLeft', ['[', 'Ctrl+ArrowLeft'], ({ model }) => turn(model, kTurn), {
+    make('world.turnLeft', ['Ctrl+ArrowLeft', '['], ({ model }) => turn(model, kTurn), {
       may: turns,
     }),
-    make('world.turnRight', [']', 'Ctrl+ArrowRight'], ({ model }) => turn(model, -kTurn), {
+    make('world.turnRight', ['Ctrl+ArrowRight', ']'], ({ model }) => turn(model, -kTurn), {
       may: turns,
     }),
     make('world.put', ['Enter'], ({ model }) => putDown(model), {

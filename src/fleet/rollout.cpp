@@ -89,7 +89,8 @@ bool Rollout::may_change(const Robot& robot) const {
 
 // A robot that was told twice tells once more what came of it.
 void Rollout::hear_version(Robot& robot, const Version& version) {
-    if (version.number != options_.want.number || version.result == "taken") return;
+    if (version.number != options_.want.number) return hear_other(robot, version);
+    if (version.result == "taken") return;
     if (may_change(robot)) {
         robot.silent = false;
         const bool is_back = version.result == "rolled_back";
@@ -104,6 +105,14 @@ void Rollout::hear_version(Robot& robot, const Version& version) {
     if (robot.place != Place::Started) return;
     robot.lacks = version.healthy == "not_yet";
     robot.why = robot.lacks ? version.why : "";
+}
+
+// Of a wish that somebody else has told since; one before ours is heard while ours is only wanted.
+void Rollout::hear_other(Robot& robot, const Version& version) {
+    const bool had = robot.place == Place::Started || robot.place == Place::Well;
+    if (!had || version.result != "started") return;
+    robot.has = false;
+    fail(robot, "somebody has given it another version since");
 }
 
 void Rollout::hear_state(Robot& robot, const State& state) {

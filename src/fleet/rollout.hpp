@@ -80,6 +80,7 @@ private:
     };
     bool may_change(const Robot& robot) const;
     void hear_version(Robot& robot, const Version& version);
+    void hear_other(Robot& robot, const Version& version);
     void hear_state(Robot& robot, const State& state);
     void pass(Robot& robot);
     Time next_of(const Robot& robot) const;

@@ -210,6 +210,19 @@ TEST(Rollout, OfOneThatWasLeftItIsHeardWhatBecomesOfItsRobots) {
     EXPECT_EQ(c.line(2), "failed: a fault: stuck");
 }
 
+// Two people who roll out at once.
+TEST(Rollout, WhoWasGivenAnotherVersionSinceDoesNotHaveThisOne) {
+    RolloutCase c;
+    c.tells("r1", "started");
+    c.pass(kHealthyFor);
+    c.tells("r1", "refused", 9);  // what it has goes on
+    EXPECT_EQ(c.line(0), "well");
+    c.tells("r1", "started", 9);
+    EXPECT_EQ(c.line(0), "failed: somebody has given it another version since");
+    EXPECT_FALSE(c.rollout.table()[0].has);
+    EXPECT_FALSE(c.rollout.all_are_well());
+}
+
 TEST(Rollout, WhatCameOfAnotherOneSaysNothing) {
     RolloutCase c;
     c.tells("r1", "started", 6);

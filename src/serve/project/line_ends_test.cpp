@@ -135,6 +135,14 @@ TEST(Merge, DifferentLinesArePutTogether) {
     EXPECT_EQ(merged("a\r\nb\r\n", "a1\r\nb\r\n", "a\r\nb2\n"), "a1\r\nb2\n");
 }
 
+// As git or an editor of Windows does to a whole file.
+TEST(Merge, OtherEndsOfAllLinesAreNoConflict) {
+    EXPECT_EQ(merged("a\nb\nc\n", "a1\nb\nc\n", "a\r\nb\r\nc\r\n"), "a1\r\nb\r\nc\r\n");
+    EXPECT_EQ(merged("a\r\nb\r\nc", "a\r\nnew\r\nb\r\nc", "a\nb\nc2"), "a\nnew\nb\nc2");
+    EXPECT_EQ(merged("a\nb\n", "a1\nb\n", "a2\r\nb\r\n"), std::nullopt);
+    EXPECT_EQ(with_both("a\nb\n", "a1\nb\n", "a2\r\nb\r\n"), "a1\r\na2\r\nb\r\n");
+}
+
 TEST(Merge, OneLineThatBothTouchIsAConflict) {
     EXPECT_EQ(merged("speed = 100\n", "speed = 150\n", "speed = 200\n"), std::nullopt);
     EXPECT_EQ(merged("a\n", "a\nmine\n", "a\ntheirs\n"), std::nullopt);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "serve/project/difference.hpp"
+#include "serve/project/line_ends.hpp"
 
 namespace vagus::serve {
 
@@ -115,17 +116,50 @@ private:
     size_t at_ = 0;  // line of the base that comes next
 };
 
+// "\n" or "\r\n", if every line ends with it; empty: not all, or there is only one line.
+std::string_view end_of_all(std::string_view text) {
+    const auto feeds = std::count(text.begin(), text.end(), '\n');
+    const auto returns = std::count(text.begin(), text.end(), '\r');
+    if (feeds == 0 || (returns != 0 && returns != feeds)) return "";
+    size_t both = 0;
+    for (size_t at = 0; (at = text.find("\r\n", at)) != std::string_view::npos; at += 2) ++both;
+    if (both != static_cast<size_t>(returns)) return "";
+    return returns == 0 ? "\n" : "\r\n";
+}
+
+std::string with_ends(std::string_view text, std::string_view end) {
+    std::string result;
+    for (const char each : with_line_feeds(text)) {
+        each == '\n' ? result.append(end) : result.append(1, each);
+    }
+    return result;
+}
+
+// Who changed what all lines end with has changed none of them beside that: then the end of all
+// lines is theirs, and the lines are compared without it.
+struct Compared {
+    Compared(std::string_view its_base, std::string_view its_mine, std::string_view theirs) {
+        const std::string_view was = end_of_all(its_base), is = end_of_all(theirs);
+        const bool other = !was.empty() && !is.empty() && was != is;
+        base = other ? with_ends(its_base, is) : std::string(its_base);
+        mine = other ? with_ends(its_mine, is) : std::string(its_mine);
+    }
+    std::string base, mine;
+};
+
 }  // namespace
 
 std::optional<std::string> merged(std::string_view base, std::string_view mine,
                                   std::string_view theirs) {
     if (mine == base) return std::string(theirs);
     if (theirs == base || theirs == mine) return std::string(mine);
-    return Merge(base, mine, theirs).run(SamePlace::Refuse);
+    const Compared compared(base, mine, theirs);
+    return Merge(compared.base, compared.mine, theirs).run(SamePlace::Refuse);
 }
 
 std::string with_both(std::string_view base, std::string_view mine, std::string_view theirs) {
-    return *Merge(base, mine, theirs).run(SamePlace::KeepBoth);
+    const Compared compared(base, mine, theirs);
+    return *Merge(compared.base, compared.mine, theirs).run(SamePlace::KeepBoth);
 }
 
 }  // namespace vagus::serve

@@ -1,9 +1,13 @@
 #include "fleet/robot_names.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cstdint>
 #include <optional>
 #include <tuple>
+
+#include "base/text.hpp"
 
 namespace vagus::fleet {
 namespace {
@@ -39,6 +43,12 @@ std::vector<std::string> names_in(const std::string& text) {
         names.push_back(std::string(first.front) + std::to_string(i));
     }
     return names;
+}
+
+std::string no_range(const std::string& text) {
+    return fmt::format(
+        "{}: expected two numbers, the smaller one first, at most {} robots, as t1..t30",
+        visible(text), kNamesInRangeMax);
 }
 
 bool counted_before(std::string_view one, std::string_view other) {

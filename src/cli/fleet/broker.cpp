@@ -216,10 +216,7 @@ Status check(const BrokerOptions& options) {
     }
     for (const std::string& robot : options.robots) {
         if (robot.find("..") != std::string::npos) {
-            return Error{Code::BadInput,
-                         fmt::format("--robot {}: expected two numbers, the smaller one first, at "
-                                     "most {} robots, as t1..t30",
-                                     visible(robot), fleet::kNamesInRangeMax)};
+            return Error{Code::BadInput, "--robot " + fleet::no_range(robot)};
         }
         const bool taken =
             std::find(std::begin(kUsers), std::end(kUsers), robot) != std::end(kUsers);

@@ -290,9 +290,13 @@ CLI::App* add_verb(CLI::App& app, const SharedCall& call, const char* name, cons
 
 void is_for(CLI::App* verb, const SharedCall& call) {
     const auto all = [call](const std::string& robot) {
+        // No robot that `fleet init` knows has such a name.
+        if (robot.find("..") != std::string::npos && fleet::names_in(robot).front() == robot) {
+            throw CLI::ValidationError("ROBOT", fleet::no_range(robot));
+        }
         if (robot != "all") call->robot = robot;
     };
-    verb->add_option_function<std::string>("ROBOT", all, "its name, or all");
+    verb->add_option_function<std::string>("ROBOT", all, "its name, t1..t30, or all");
     verb->add_option("--group", call->group, "those of this group")->type_name("GROUP");
 }
 

@@ -22,7 +22,7 @@ int complain_of(const Error& error) {
 
 fleet::Chosen chosen_by(const FleetCall& call) {
     fleet::Chosen to{.all = call.robot.empty() && call.group.empty(), .group = call.group};
-    if (!call.robot.empty()) to.robots.push_back(call.robot);
+    if (!call.robot.empty()) to.robots = fleet::names_in(call.robot);
     return to;
 }
 

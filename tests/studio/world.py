@@ -128,6 +128,34 @@ class AWorldUnderAHand(Case):
         (self.folder / "floor.png").write_bytes(png(128))
         self.wait(lambda: self.scene.value["opening"] > opening, "a world again")
 
+    def test_what_was_put_after_stop_is_there_when_a_plan_starts(self):
+        """Its world is opened again for it. What was deleted stays deleted; the next run is that of the file."""
+        def make(folder):
+            projects.thymio(folder)
+            projects.write(folder, "Rest.plan.json", {"format": "vagus-plan/1", "name": "Rest", "start": {"actor": "rest"}, "actors": {
+                "rest": {"template": "WaitForever", "states": {}}}})
+            project = json.loads((folder / "vagus.json").read_text(encoding="utf-8"))
+            projects.write(folder, "vagus.json", {**project, "plan": "Rest.plan.json"})
+
+        def run():
+            page.do("run.start")
+            self.wait(lambda: self.plan.value.get("state") == "running", "the plan")
+
+        page = self.open(make)
+        self.wait_node(described=True)
+        run()
+        page.do("stop")
+        number = page.do("world.put", kind="cylinder", id="post", at=[1, 2], radius=0.1)["number"]
+        self.wait(lambda: self.ids() == ["box", "post"], "the post")
+        opening = self.scene.value["opening"]
+        page.do("world.take", object=1)
+        run()
+        self.wait(lambda: self.ids() == ["post"], "the post alone, in the world of the run")
+        self.assertEqual((self.scene.value["objects"][0]["number"], self.scene.value["opening"]), (number, opening))
+        page.do("stop")
+        run()
+        self.wait(lambda: self.ids() == ["box"], "the world of the file")
+
     def test_ways_are_told_from_the_beginning(self):
         page = self.open()
         self.wait_node(described=True)

@@ -55,6 +55,8 @@ Status Run::open(const RunOrder& order, Time now) {
         ++generation_;
     }
     forget_run();
+    keeps_objects_ = order.keep_objects;
+    keep_hands();
     opening_ = true;
     rests_ = order.paused && !order.past;
     state_ = order.paused ? State::Paused : State::Running;
@@ -244,10 +246,33 @@ void Run::forget_asked(const std::string& why) {
 }
 
 void Run::lend_hand(HandOrder order, HandDone done) {
-    Answered answered = [done = std::move(done)](const talk::Answer& answer) {
+    Answered answered = [this, order, done = std::move(done)](const talk::Answer& answer) {
+        if (answer.why.empty()) note_hand(order);
         done(answer.number, answer.why);
     };
     std::visit([&](auto& one) { ask(std::move(one), std::move(answered)); }, order);
+}
+
+// The numbers of objects count up, so the same orders give the same numbers in the same world.
+void Run::note_hand(const HandOrder& order) {
+    const bool changes = std::holds_alternative<talk::MoveObject>(order) ||
+                         std::holds_alternative<talk::PutObject>(order) ||
+                         std::holds_alternative<talk::TakeObject>(order) ||
+                         std::holds_alternative<talk::SwitchLight>(order);
+    if (!changes) return;
+    const auto* const move = std::get_if<talk::MoveObject>(&order);
+    const auto* const before =
+        by_hand_.empty() ? nullptr : std::get_if<talk::MoveObject>(&by_hand_.back());
+    const bool goes_on = move && before && move->object == before->object;
+    if (goes_on) by_hand_.pop_back();
+    if (by_hand_.size() < kHandsKept) by_hand_.push_back(order);
+}
+
+// One that could not be opened has not had them yet.
+void Run::keep_hands() {
+    if (!keeps_objects_) by_hand_next_.clear();
+    if (keeps_objects_ && by_hand_next_.empty()) by_hand_next_ = std::move(by_hand_);
+    by_hand_.clear();
 }
 
 void Run::script_loaded(uint16_t node, const std::string& file, const std::string& text) {

@@ -32,6 +32,7 @@ constexpr Duration kSilentAfter = 300ms;
 constexpr Duration kClockAgainAfter = 1s;   // of a clock that says nothing new
 constexpr Duration kClosedEndsWithin = 1s;  // by itself; then it is killed
 constexpr size_t kClosedMax = 8;            // that end at a time; the oldest is killed
+constexpr size_t kHandsKept = 10'000;       // orders of hands that a world can get again
 
 struct RunOrder {
     std::string world;                      // paths of this computer
@@ -47,6 +48,7 @@ struct RunOrder {
     std::string recording;             // file that it is recorded in; empty: none
     std::optional<talk::PastOf> past;  // it continues from there
     bool keep_poses = false;           // robots are at rest where they were before
+    bool keep_objects = false;         // what hands did to objects of this world is done again
     bool paused = true;                // at first
 };
 
@@ -165,6 +167,7 @@ public:
     void stop_plan();
     void set_breakpoints(const std::vector<talk::BreakpointOrder>& list);
     // A hand from above: `done` gets the number of an object that was put, or why it was not done.
+    // What it did to objects is done again where an order keeps them: their numbers stay.
     using HandDone = std::function<void(std::optional<uint32_t> number, const std::string& why)>;
     void lend_hand(HandOrder order, HandDone done);
     // Somebody debugs these nodes, and no others: the plan on a bus waits for them. It is told what
@@ -235,6 +238,8 @@ private:
     void forget_run();
     void let_end();
     void end_closed();
+    void note_hand(const HandOrder& order);
+    void keep_hands();
     talk::Open open_order(const RunOrder& order);
     const std::vector<talk::SceneRobot>& robots() const;
     void show_what_is_watched();
@@ -297,13 +302,16 @@ private:
     std::map<uint64_t, Answered> answers_;  // of the runner, by number of what was asked
     std::map<uint16_t, std::string> programs_;
     std::vector<std::string> changed_since_;
-    std::set<std::string> hears_;  // events, by the plan
+    std::vector<HandOrder> by_hand_;       // what was done to objects of this world, in its order
+    std::vector<HandOrder> by_hand_next_;  // what is to be done to those of the one that is opened
+    std::set<std::string> hears_;          // events, by the plan
     std::set<std::string> stops_work_;
     std::vector<uint16_t> held_nodes_;  // as it was told
     uint64_t generation_ = 0;
     uint64_t orders_ = 0;
-    uint64_t opened_order_ = 0;  // of the world that is there
+    uint64_t opened_order_ = 0;  // that opened the world whose objects are there
     bool opening_ = false;       // what the runner tells is still of the order before
+    bool keeps_objects_ = false;
     bool rests_ = true;
     uint64_t deaths_ = 0, late_checks_ = 0;
 

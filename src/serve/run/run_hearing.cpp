@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <tuple>
+#include <utility>
 
 #include "serve/run/run.hpp"
 #include "serve/thrown.hpp"
@@ -51,7 +52,7 @@ bool Run::counts(const talk::News& news) const {
 
 void Run::hear(talk::Opened& opened) {
     opening_ = false;
-    opened_order_ = opened.order;
+    if (!keeps_objects_) opened_order_ = opened.order;
     has_world_ = opened.scene.has_value();
     scene_ = std::move(opened.scene);
     programs_.clear();
@@ -62,6 +63,9 @@ void Run::hear(talk::Opened& opened) {
     hears_ = std::move(opened.hears);
     stops_work_ = std::move(opened.stops);
     desk_.topics().touch("scene");
+    for (HandOrder& order : std::exchange(by_hand_next_, {})) {
+        lend_hand(std::move(order), [](auto, auto&) {});
+    }
     opened_();
 }
 

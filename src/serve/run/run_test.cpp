@@ -162,6 +162,37 @@ TEST_F(RunTest, TheEndOfAPlanIsToldOnce) {
     EXPECT_FALSE(run.plan_runs());
 }
 
+// What a person puts beside a robot after Stop is for the run that follows.
+TEST_F(RunTest, WhatAHandDidToObjectsIsDoneAgainWhereTheyStay) {
+    open();
+    say(opened_answer(number));
+    const auto lend = [this](const HandOrder& order, const std::string& why) {
+        run.lend_hand(order, [](auto, auto&) {});
+        run.tick(now);
+        uint64_t asked = 0;
+        for (const auto& put : orders<talk::PutObject>()) asked = put.request;
+        say(talk::Answer{.request = asked, .why = why});
+    };
+    lend(talk::PutObject{.kind = talk::ObjectKind::Box, .at = {1, 2}}, "");
+    lend(talk::PutObject{.kind = talk::ObjectKind::Box, .at = {9, 9}}, "it lies outside");
+    const auto put_again = [this](bool stays) {
+        RunOrder order;
+        order.world = "hall.world.json";
+        order.keep_objects = stays;
+        EXPECT_TRUE(run.open(order, now).ok());
+        run.tick(now);
+        say(opened_answer(orders<talk::Open>().at(0).order));
+        return orders<talk::PutObject>();
+    };
+    const auto again = put_again(true);
+    ASSERT_EQ(again.size(), 1u);
+    EXPECT_EQ(again[0].at, (talk::Point{1, 2}));
+    say(talk::Answer{.request = again[0].request});
+    EXPECT_EQ(put_again(true).size(), 1u);
+    EXPECT_EQ(put_again(false).size(), 0u);
+    EXPECT_EQ(put_again(true).size(), 0u);
+}
+
 TEST_F(RunTest, ADeathAnswersWhatWasAskedAndSaysWhereItWas) {
     open();
     say(opened_answer(number));

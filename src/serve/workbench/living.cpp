@@ -116,6 +116,7 @@ Status Workbench::open_plan(RunOrder order) {
 
 Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_poses = keep_poses;
+    order.keep_objects = keep_poses && !world_has_changed();
     if (!keep_poses) run_is_over_ = placed_by_hand_ = false;
     loaded_by_world_.clear();
     continues_at_.reset();

@@ -102,6 +102,8 @@ export class Connection {
   readonly changed = new Emitter<Link>();
   /** Another life of the server: what it counted begins again. Before anything else is heard of it. */
   readonly renewed = new Emitter<void>();
+  /** Somebody else has pressed Stop. */
+  readonly stopped = new Emitter<void>();
   readonly odd = new Emitter<string>();
   link: Link = { state: 'connecting' };
 
@@ -121,6 +123,8 @@ export class Connection {
   token: string;
   /** By how much the server's clock was ahead of ours, as the last messages that told it say. */
   private ahead: number[] = [];
+  /** How often others have pressed Stop, as far as this page has heard: what it asks for counts on that. */
+  private stops: number | undefined;
 
   constructor(
     private readonly world: World,
@@ -161,7 +165,8 @@ export class Connection {
     const id = this.takeId();
     const act = commandTable[command].kind === 'act';
     const until = act ? this.deadline() : undefined;
-    const text = JSON.stringify({ id, do: command, in: input, until });
+    const stops = act ? this.stops : undefined;
+    const text = JSON.stringify({ id, do: command, in: input, until, stops });
     return new Promise((resolve, reject) => {
       const failed = (problem: Problem) => reject(new CommandError(problem));
       if ((act || kSaves.has(command)) && !answers(this.link))
@@ -244,6 +249,7 @@ export class Connection {
     this.retries = 0;
     this.ahead = [];
     this.tellTime(hello.now);
+    this.stops = hello.stops;
     this.wallAhead = hello.wall - this.options.now();
     if (hello.client !== this.client) this.options.renamed?.(hello.client);
     this.client = hello.client;
@@ -292,12 +298,19 @@ export class Connection {
   private answerPing(ping: Record<string, Json>): void {
     this.tellTime(Number(ping['now']));
     this.socket?.send(JSON.stringify({ pong: ping['ping'] }));
+    this.hearStops(ping['stops']);
     if (this.link.state !== 'open') return;
     if (!answers(this.link)) {
       const { number, role, version } = this.link;
       this.setLink({ state: 'open', number, role, version });
     }
     this.listenForPings();
+  }
+
+  private hearStops(stops: Json | undefined): void {
+    if (typeof stops !== 'number' || stops === this.stops) return;
+    this.stops = stops;
+    this.stopped.emit();
   }
 
   private listenForPings(): void {

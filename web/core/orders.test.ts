@@ -19,7 +19,7 @@ function begin() {
       sent.push(name);
       return Promise.resolve(name);
     });
-  return { world, stopping, orders, sent, ask };
+  return { world, connection, stopping, orders, sent, ask };
 }
 
 function later() {
@@ -72,6 +72,24 @@ test('Stop drops what has not been sent, and nothing that is asked for after it'
   texts.done();
   await settle();
   expect(sent).toEqual(['again']);
+});
+
+test('Stop in another page drops what has not been sent, and says so', async () => {
+  const { world, sent, ask } = begin();
+  const texts = later();
+  const run = ask('run', texts.ready);
+  world.say({ ping: 1, now: 0, stops: 1 });
+  await expect(run).rejects.toThrow('Not done: somebody else pressed Stop meanwhile.');
+  texts.done();
+  expect(await ask('again')).toBe('again');
+  expect(sent).toEqual(['again']);
+});
+
+test('what is sent says of how many Stops its page had heard', () => {
+  const { world, connection } = begin();
+  world.say({ ping: 1, now: 0, stops: 4 });
+  void connection.send('run.start', {}).catch(() => {});
+  expect(world.last.sent.at(-1)).toMatchObject({ do: 'run.start', stops: 4 });
 });
 
 test('what has not been sent when the connection is lost is never sent', async () => {

@@ -11,6 +11,8 @@ export class Orders {
 
   constructor(connection: Connection, stopping: Stopping) {
     stopping.pressed.on(() => this.drop(''));
+    // What this page has sent by then carries the Stops that it knew of: the server judges that.
+    connection.stopped.on(() => this.drop('Not done: somebody else pressed Stop meanwhile.'));
     connection.changed.on((link) => {
       if (!answers(link)) this.drop('Not sent: the connection to the server was lost.');
     });
@@ -18,8 +20,8 @@ export class Orders {
 
   /**
    * Sends once what was asked for before has been sent and `ready` is there; gives what `send` gives,
-   * or null if Stop was pressed meanwhile. Throws if the connection was lost meanwhile, and what
-   * `ready` and `send` throw.
+   * or null if Stop was pressed meanwhile. Throws if somebody else pressed it or the connection was
+   * lost meanwhile, and what `ready` and `send` throw.
    */
   async ask<T, R>(ready: Promise<T>, send: (prepared: T) => Promise<R>): Promise<R | null> {
     const sent = this.sendInTurn(this.round, this.before, ready, send);

@@ -19,7 +19,7 @@ test('stop is sent as a command and as a request', async () => {
   world.welcome();
   const answer = stopping.press();
   expect(stops(world)).toHaveLength(1);
-  expect(world.posts.map(({ path, token }) => [path, token])).toEqual([['stop', 't0ken']]);
+  expect(world.posts.map(({ path, token }) => [path, token])).toEqual([['stop?client=7', 't0ken']]);
   world.say({ id: stops(world)[0]?.id, ok: { stood: [1], nodes: [] } });
   expect((await answer).stood).toEqual([1]);
   expect(stopping.waits).toBe(false);

@@ -38,7 +38,9 @@ export class Stopping {
 
   private post(press: number): void {
     if (press !== this.presses || !this.waits) return;
-    this.world.post('stop', this.connection.token).then(
+    const { link, token } = this.connection;
+    const path = link.state === 'open' ? `stop?client=${link.number}` : 'stop';
+    this.world.post(path, token).then(
       () => this.answered(press),
       () => void this.world.later(kPostAgainMs, () => this.post(press)),
     );

@@ -1145,6 +1145,8 @@ export interface Commands {
     /** has control */
     driver: boolean;
     wall: number;
+    /** how often others have pressed Stop */
+    stops?: number;
   } };
   /** Subscribes to a topic. */
   'watch': { in: {
@@ -2476,7 +2478,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   Asked: { client: 'int(1..1000000000)', name: 'line(100)', until_wall: 'number' },
 };
 export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 'drive' | 'driver'; kind: CommandKind; out: Fields }>> = {
-  'hello': { may: 'any', kind: 'look', out: { version: 'line(64)', epoch: 'line(32)', client: 'line(64)', now: 'number', role: 'word(drive|look)', number: 'int(1..1000000000)', driver: 'bool', wall: 'number' } },
+  'hello': { may: 'any', kind: 'look', out: { version: 'line(64)', epoch: 'line(32)', client: 'line(64)', now: 'number', role: 'word(drive|look)', number: 'int(1..1000000000)', driver: 'bool', wall: 'number', stops: 'int(0..9007199254740991)?' } },
   'watch': { may: 'look', kind: 'look', out: {} },
   'unwatch': { may: 'look', kind: 'look', out: {} },
   'stop': { may: 'look', kind: 'stop', out: { stood: '[NodeId; 1024]', nodes: '[StopNode; 1024]' } },

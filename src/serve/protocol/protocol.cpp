@@ -208,10 +208,11 @@ Message Protocol::read(std::string_view message) const {
 // What is beside `in`.
 std::optional<Refusal> Protocol::read_members(const Json& json, Request& request) const {
     for (const auto& [key, value] : json.items()) {
-        if (key != "id" && key != "do" && key != "in" && key != "until") {
-            return refuse(request.id, "bad_message",
-                          fmt::format("{:.64}: not known; a command has id, do, in and until", key),
-                          "message");
+        if (key != "id" && key != "do" && key != "in" && key != "until" && key != "stops") {
+            return refuse(
+                request.id, "bad_message",
+                fmt::format("{:.64}: not known; a command has id, do, in, until and stops", key),
+                "message");
         }
     }
     const auto until = json.find("until");
@@ -220,6 +221,12 @@ std::optional<Refusal> Protocol::read_members(const Json& json, Request& request
                       "until: expected a time of the server in milliseconds", "until");
     }
     if (until != json.end()) request.until = until->get<double>();
+    const auto stops = json.find("stops");
+    if (stops != json.end() && !stops->is_number_unsigned()) {
+        return refuse(request.id, "bad_message", "stops: expected how many Stops were heard of",
+                      "stops");
+    }
+    if (stops != json.end()) request.stops = stops->get<uint64_t>();
     const auto name = json.find("do");
     if (name == json.end() || !name->is_string()) {
         return refuse(request.id, "bad_message", "do: expected the name of a command", "do");

@@ -63,7 +63,8 @@ struct Request {
     std::string name;
     const CommandType* type = nullptr;
     nlohmann::json in;
-    std::optional<double> until = {};  // ms of the server's time: not done later
+    std::optional<double> until = {};    // ms of the server's time: not done later
+    std::optional<uint64_t> stops = {};  // of others, heard of when it was asked for
 };
 
 // The answer to a ping of the server.

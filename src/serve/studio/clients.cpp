@@ -80,6 +80,12 @@ size_t Clients::connected() const {
     return connections_.size();
 }
 
+void Clients::count_stop(uint32_t by) {
+    for (auto& [number, member] : members_) {
+        if (number != by) ++member.stops;
+    }
+}
+
 Clients::Seen Clients::begin(Member& member, uint64_t id) {
     const auto found = member.answers.find(id);
     if (found != member.answers.end()) return found->second.empty() ? Seen::UnderWay : Seen::Done;

@@ -45,6 +45,7 @@ public:
         std::map<uint64_t, std::string> answers = {};
         size_t answer_bytes = 0;
         uint64_t forgotten = 0;  // ids up to this one were answered long ago
+        uint64_t stops = 0;      // how often others have pressed Stop
     };
     struct Ask {
         uint32_t member = 0;
@@ -73,6 +74,9 @@ public:
     static bool is_answered(const Member& member, uint64_t id);
     // The text of the answer, kept for a repetition.
     void finish(Member& member, uint64_t id, const std::string& answer);
+
+    // Somebody has pressed Stop: the client with that number, or nobody's page (0).
+    void count_stop(uint32_t by);
 
     // ---- control ----
     // True: the page has it now, as no connected page had it. False: the driver is asked; if its

@@ -127,7 +127,7 @@ void Desk::on_stop_asked(const StopAsked& asked) {
         const auto answered = [this](const Call::Outcome& outcome) {
             if (const auto* problem = std::get_if<Problem>(&outcome)) log("stop: " + problem->what);
         };
-        const Call call(Json::object(), 0, answered, "POST /stop from " + asked.address);
+        const Call call(Json::object(), asked.client, answered, "POST /stop from " + asked.address);
         if (const auto thrown = thrown_by([&] { found->second(call); })) log("stop: " + *thrown);
     }
     log(asked.address + ": POST /stop");
@@ -230,9 +230,17 @@ std::optional<Problem> Desk::refusal(const Clients::Member& member, const Reques
 }
 
 // A command that can move something is not done later than the person who gave it expects.
-std::optional<Problem> Desk::lateness(const Request& request, Time now) const {
+std::optional<Problem> Desk::lateness(const Clients::Member& member, const Request& request,
+                                      Time now) const {
     if (request.type->kind != CommandKind::Act) return std::nullopt;
     if (overtaken_) return Problem{"failed", "it was stopped before it ran", ""};
+    if (request.stops.value_or(member.stops) < member.stops) {
+        return Problem{"failed",
+                       request.name +
+                           " was asked for before somebody else pressed Stop; it was not done. "
+                           "Give it again",
+                       "stops"};
+    }
     if (!request.until) {
         return Problem{"late",
                        request.name +
@@ -291,7 +299,7 @@ void Desk::obey_new(Clients::Member& member, ClientId client, const Request& req
     if (const auto problem = refusal(member, request)) {
         return answer(member.number, request.id, *problem);
     }
-    if (const auto problem = lateness(request, now)) {
+    if (const auto problem = lateness(member, request, now)) {
         log(fmt::format("{}: {}", member.name, problem->what));
         return answer(member.number, request.id, *problem);
     }
@@ -305,6 +313,11 @@ void Desk::obey_new(Clients::Member& member, ClientId client, const Request& req
                        [this, number = member.number, id = request.id](Call::Outcome outcome) {
                            answer(number, id, outcome);
                        }));
+}
+
+void Desk::count_stop(uint32_t by) {
+    clients_.count_stop(by);
+    tells_stops_ = true;
 }
 
 bool Desk::is_here(const std::string& name) const {
@@ -363,6 +376,7 @@ void Desk::tick(Time now) {
     log_.tick(now);
     if (clients_.tick(now)) people_changed_();
     ping(now);
+    tell_stops(now);
     const auto has_room = [this](ClientId client) {
         const auto found = connections_.find(client);
         return found != connections_.end() && !found->second.dropped &&
@@ -383,6 +397,7 @@ void Desk::tick(Time now) {
 Time Desk::next_tick(Time now) const {
     Time next = std::min(topics_.next_due(now), clients_.next_tick());
     if (!connections_.empty()) next = std::min(next, std::max(now, next_ping_));
+    if (tells_stops_) next = now;
     for (const auto& [client, connection] : connections_) {
         if (connection.twin) next = std::min(next, connection.twin->until);
         if (connection.refuse_at && !connection.dropped) {

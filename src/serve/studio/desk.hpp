@@ -100,6 +100,9 @@ public:
     size_t present() const;
     // Version, driver, who asks, how many: what the topic studio says of them.
     Json people() const;
+    // Somebody has pressed Stop: the client with that number, or nobody's page (0). What another
+    // page asked for before it has heard of that is refused, however long it was on its way.
+    void count_stop(uint32_t by);
     // Called when the driver, who is connected or who is there changes.
     void on_people(std::function<void()> changed) { people_changed_ = std::move(changed); }
 
@@ -177,6 +180,7 @@ private:
     static bool is_silent(const Connection& connection);
     void ping(Time now);
     void send_ping(ClientId client, Time now);
+    void tell_stops(Time now);
     void look_after(ClientId client, Connection& connection, Duration passed, Time now);
     void renew_access(const Clients::Member& member, ClientId client, uint64_t id);
 
@@ -184,7 +188,8 @@ private:
     void obey(Clients::Member& member, ClientId client, const Request& request, Time now);
     void obey_new(Clients::Member& member, ClientId client, const Request& request, Time now);
     void obey_here(Clients::Member& member, ClientId client, const Request& request, Time now);
-    std::optional<Problem> lateness(const Request& request, Time now) const;
+    std::optional<Problem> lateness(const Clients::Member& member, const Request& request,
+                                    Time now) const;
     bool is_here(const std::string& name) const;
     std::optional<Problem> refusal(const Clients::Member& member, const Request& request) const;
     bool within_rate(Connection& connection, Time now) const;
@@ -208,6 +213,7 @@ private:
     Time now_{}, ticked_{};
     uint64_t pings_ = 0;
     Time next_ping_{};
+    bool tells_stops_ = false;  // pages do not know of the last Stop yet
 };
 
 }  // namespace vagus::serve

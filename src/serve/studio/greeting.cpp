@@ -129,7 +129,8 @@ void Desk::welcome(ClientId client, const Request& request, Role role, Time now)
                       {"number", member.number},
                       {"driver", clients_.drives(member)},
                       {"now", server_ms(now)},
-                      {"wall", outside_.wall_ms()}};
+                      {"wall", outside_.wall_ms()},
+                      {"stops", member.stops}};
     send(client, false, answer_text(request.id, out));
     people_changed_();
 }
@@ -197,7 +198,17 @@ void Desk::ping(Time now) {
 void Desk::send_ping(ClientId client, Time now) {
     const uint64_t number = ++pings_;
     connections_.at(client).on_the_way.mark(number);
-    send(client, false, json_text({{"ping", number}, {"now", server_ms(now)}}));
+    const Clients::Member* const member = clients_.find(client);
+    const uint64_t stops = member ? member->stops : 0;
+    send(client, false, json_text({{"ping", number}, {"now", server_ms(now)}, {"stops", stops}}));
+}
+
+// At once: what a page is asked for from now on knows of the Stop.
+void Desk::tell_stops(Time now) {
+    if (!std::exchange(tells_stops_, false)) return;
+    for (const auto& [client, connection] : connections_) {
+        if (connection.known && !connection.dropped) send_ping(client, now);
+    }
 }
 
 // Slow is not gone: only who takes nothing at all is, and only while we gave everything in time.

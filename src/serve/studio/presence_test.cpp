@@ -85,5 +85,39 @@ TEST(Desk, ControlThatWasGivenOrIsOldIsNotTakenBack) {
     EXPECT_EQ(old.hello(2, kDrive, "b", true)["ok"]["driver"], false);
 }
 
+TEST(Desk, WhatWasAskedForBeforeAnotherPressedStopIsNotDoneAfterIt) {
+    Fixture f;
+    f.desk.command("stop", [&f](const Call& call) {
+        f.desk.count_stop(call.member);
+        call.done({{"stood", Json::array()}});
+    });
+    EXPECT_EQ(f.hello(1, kDrive, "a")["ok"]["stops"], 0);
+    f.hello(2, kLook, "b");
+    const auto run = [&](int id, int stops) {
+        const Json in = {{"node", 1}};
+        return f.say(1, {{"id", id}, {"do", "node.run"}, {"in", in}, {"stops", stops}});
+    };
+    f.say(2, {{"id", 2}, {"do", "stop"}});
+    const Json refused = run(2, 0);  // it was on its way
+    EXPECT_EQ(f.ran, 0);
+    EXPECT_EQ(refused["error"]["what"],
+              "node.run was asked for before somebody else pressed Stop; it was not done. Give it "
+              "again");
+    f.desk.tick(f.now);
+    EXPECT_EQ(f.pings[ClientId{1}].back()["stops"], 1);  // heard of at once
+    run(3, 1);
+    EXPECT_EQ(f.ran, 1);
+    // Its own, on each of its ways: what it sends behind them is meant.
+    f.say(1, {{"id", 4}, {"do", "stop"}});
+    f.desk.hear(StopAsked{"127.0.0.1", 1}, f.now);
+    run(5, 1);
+    EXPECT_EQ(f.ran, 2);
+    f.desk.hear(StopAsked{"127.0.0.1"}, f.now);  // of someone without a page
+    run(6, 1);
+    EXPECT_EQ(f.ran, 2);
+    f.run(1, 7);  // a client that does not say what it has heard of
+    EXPECT_EQ(f.ran, 3);
+}
+
 }  // namespace
 }  // namespace vagus::serve

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "serve/web/server.hpp"
 
 namespace vagus::serve {
@@ -69,10 +71,24 @@ Answer without_token(const Asking& asked, const Shown& shown) {
     return answer;
 }
 
+// "/stop" and "/stop?client=7": the number, or 0; of anything else nothing.
+std::optional<uint32_t> stopping_client(std::string_view target) {
+    constexpr std::string_view kStop = "/stop", kClient = "?client=";
+    if (!target.starts_with(kStop)) return std::nullopt;
+    target.remove_prefix(kStop.size());
+    if (target.empty()) return 0;
+    if (!target.starts_with(kClient)) return std::nullopt;
+    target.remove_prefix(kClient.size());
+    uint32_t number = 0;
+    const auto read = std::from_chars(target.data(), target.data() + target.size(), number);
+    if (read.ec != std::errc() || read.ptr != target.data() + target.size()) return std::nullopt;
+    return number;
+}
+
 // Without JSON, without a page and without a WebSocket: nothing is in front of it.
-Answer stop_answer(const Asking& asked, const Shown& shown) {
+Answer stop_answer(const Asking& asked, const Shown& shown, uint32_t client) {
     if (!shown.may_look(token_of(asked))) return without_token(asked, shown);
-    shown.stop();
+    shown.stop(client);
     return plain(asked, http::status::accepted, "Stop sent");
 }
 
@@ -109,8 +125,10 @@ std::optional<std::string> ambiguity_of(const Asking& asked) {
 }
 
 Answer answer_for(const Asking& asked, const Shown& shown) {
-    if (asked.method() == http::verb::post && asked.target() == "/stop") {
-        return stop_answer(asked, shown);
+    if (asked.method() == http::verb::post) {
+        const std::string_view target(asked.target().data(), asked.target().size());
+        const auto client = stopping_client(target);
+        if (client) return stop_answer(asked, shown, *client);
     }
     if (asked.method() != http::verb::get && asked.method() != http::verb::head) {
         return plain(asked, http::status::method_not_allowed,

@@ -20,8 +20,8 @@ struct Shown {
     const std::optional<std::string>& metrics;
     const std::string& ill;  // why /healthz does not say ok; empty: it does
     const std::function<bool(std::string_view token)>& may_look;
-    std::function<void()> stop;             // somebody with a token wants everything to stop
-    std::function<void(std::string)> note;  // for the log
+    std::function<void(uint32_t client)> stop;  // somebody with a token wants everything to stop
+    std::function<void(std::string)> note;      // for the log
 };
 
 // What another server between us could read otherwise than we do: a sentence.

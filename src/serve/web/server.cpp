@@ -443,7 +443,10 @@ private:
                 .metrics = metrics_,
                 .ill = ill_,
                 .may_look = options_.may_look,
-                .stop = [this, address] { inbox_.put_first(StopAsked{address}); },
+                .stop =
+                    [this, address](uint32_t client) {
+                        inbox_.put_first(StopAsked{address, client});
+                    },
                 .note = [this](std::string note) { inbox_.put(WebNote{std::move(note)}); }};
     }
 

@@ -85,6 +85,7 @@ struct WebNote {
 // POST /stop with a token: it comes before all that has not been taken yet.
 struct StopAsked {
     std::string address;
+    uint32_t client = 0;  // the number of the client that says that it is its own
 };
 using WebEvent =
     std::variant<ClientOpened, ClientText, ClientTook, ClientClosed, WebNote, StopAsked>;

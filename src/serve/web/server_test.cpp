@@ -337,6 +337,10 @@ TEST_F(WebServerTest, StopNeedsATokenAndNothingElse) {
     const std::vector<WebEvent> taken = server->take();
     ASSERT_FALSE(taken.empty());
     EXPECT_TRUE(std::holds_alternative<StopAsked>(taken.front()));  // before the hello
+    const std::string own = "POST /stop?client=7 HTTP/1.1\r\nHost: " + host() +
+                            "\r\nContent-Length: 0\r\nAuthorization: Bearer right\r\n\r\n";
+    EXPECT_THAT(ask(own), StartsWith("HTTP/1.1 202"));
+    EXPECT_EQ(std::get<StopAsked>(server->take().front()).client, 7u);
     EXPECT_THAT(get("/stop"), StartsWith("HTTP/1.1 404"));
 }
 

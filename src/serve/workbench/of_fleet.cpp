@@ -61,7 +61,7 @@ Status Workbench::hear_of_fleet(const talk::HearOfFleet& event) {
 }
 
 void Workbench::stop_for(const std::string& by) {
-    stopped_();
+    somebody_stops(0);
     end_by(by, life::Why::Stop);
 }
 
@@ -99,7 +99,7 @@ void Workbench::obey_start(const fleet::Command& command, Obeyed done) {
 
 // Stopped means read back: who did not say so is named.
 void Workbench::stop_and_report(const std::string& by, Obeyed done) {
-    stopped_();
+    somebody_stops(0);
     const Call call(Json::object(), 0, [done = std::move(done)](const Call::Outcome& outcome) {
         const auto* problem = std::get_if<Problem>(&outcome);
         fleet::Answer answer = answer_of_why(problem ? problem->what : "");

@@ -19,6 +19,8 @@ namespace vagus::serve {
 namespace {
 
 constexpr size_t kNotAgainMax = 1000;  // bytes, as in the protocol
+// Reading a recording takes a while: what was to follow does not run behind a Stop.
+constexpr const char* kStoppedBefore = "it was stopped before it ran";
 
 // Why a run that is shown has no recording.
 std::string nothing_to_ask(bool on_bus, bool serves) {
@@ -101,7 +103,7 @@ void Workbench::continue_from(const Call& call) {
     const auto recording = recording_of_run();
     if (!recording.ok()) return call.fail(recording.error());
     if (!save_all(call)) return;
-    run_.flush_recording([this, call, file = recording.value()] {
+    run_.flush_recording([this, call, stops = stops_, file = recording.value()] {
         // The run that is there ends only for one that can be lived again.
         worked<Status>(
             worker_.poster(),
@@ -109,7 +111,8 @@ void Workbench::continue_from(const Call& call) {
                 (void)TRY(record::read_past(file, t));
                 return Status::done();
             },
-            [this, call, file](const Status& can) {
+            [this, call, stops, file](const Status& can) {
+                if (stops != stops_) return call.fail("failed", kStoppedBefore);
                 can.ok() ? continue_run(call, file) : call.fail(can.error());
             });
     });
@@ -189,7 +192,8 @@ void Workbench::open_recording(const Call& call) {
     using Read = Result<record::PastRun>;
     worked<Read>(
         worker_.poster(), [file = file.value()] { return record::read_past(file, std::nullopt); },
-        [this, call, path](const Read& past) {
+        [this, call, stops = stops_, path](const Read& past) {
+            if (stops != stops_) return call.fail("failed", kStoppedBefore);
             if (!project_ || bus_) return call.fail("unavailable", "the project was closed");
             if (past.ok()) return relive(call, project_->real(path), past.value());
             const std::string why = with_short_paths(past.error().what);

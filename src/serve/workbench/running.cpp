@@ -243,6 +243,13 @@ void Workbench::stop(const Call& call, life::Cause cause) {
     live();
 }
 
+// What was asked for before it is not done after it, wherever it is on its way.
+void Workbench::somebody_stops(uint32_t member) {
+    ++stops_;
+    stopped_();
+    desk_.count_stop(member);
+}
+
 void Workbench::end_by(const std::string& by, life::Why why) {
     if (!life_.is_live() && !(bus_ && target_.moved())) return;
     tell_life(life::Stop{0, {by, why}});
@@ -261,7 +268,7 @@ void Workbench::people_changed() {
 
 void Workbench::declare_run_commands() {
     desk_.command("stop", [this](const Call& call) {
-        stopped_();
+        somebody_stops(call.member);
         stop(call, {who_asks(call), life::Why::Stop});
     });
     desk_.command("end.acknowledge", [this](const Call& call) {

@@ -194,6 +194,23 @@ TEST_F(RunningTest, ARobotThatWasPlacedByHandAfterStopBeginsThere) {
     EXPECT_THAT(orders(), ElementsAre("open"));
 }
 
+// It is read on a thread of its own, and nobody expects a run of it any more.
+TEST_F(RunningTest, ARecordingThatIsStillReadDoesNotRunBehindAStop) {
+    write("run.mcap", "none");
+    open({{"world", "w.world.json"}});
+    EXPECT_EQ(say("recording.open", {{"path", "run.mcap"}}), nullptr);
+    const uint64_t asked = id;
+    say("stop");
+    std::string why;
+    while (why.empty()) {
+        turn();
+        for (const Json& answer : answers) {
+            if (answer.value("id", uint64_t{0}) == asked) why = answer["error"]["what"];
+        }
+    }
+    EXPECT_EQ(why, "it was stopped before it ran");
+}
+
 TEST_F(RunningTest, RunTakesTheSimulatorWhereNothingElseIsChosen) {
     open({{"world", "w.world.json"}});
     orders();

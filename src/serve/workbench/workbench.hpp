@@ -164,6 +164,7 @@ public:
 
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
     // that is over, or waited for no longer, is_stopping().
+    void somebody_stops(uint32_t member);
     void end_by(const std::string& by, life::Why why);
     bool is_stopping() const { return life_.is_stopping(); }
 
@@ -330,6 +331,7 @@ private:
     std::optional<OpenedProject> project_;
     Time now_{};
     uint64_t runs_ = 0;
+    uint64_t stops_ = 0;                              // that somebody has pressed
     std::string failed_loads_;                        // of the start under way
     std::pair<int, uint64_t> watched_run_ = {-1, 0};  // descriptor, generation
     Life life_;

@@ -1,6 +1,7 @@
 // A recording that cannot be run again, as that of a real robot, is shown as it was recorded.
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync } from 'node:fs';
+import { cpSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
@@ -32,8 +33,11 @@ test(
   'a recording that cannot be run again is looked at, and asked why',
   { prepare: recorded },
   async (studio) => {
-    const { page, layout, button, press } = studio;
+    const { page, layout, button, press, command, place } = studio;
     await layout('Draw');
+    // What is not saved stays so: who looks into a recording has not asked for it.
+    await command('Plan: new variable');
+    await seen(page.getByText('Not saved'));
     await page.getByRole('tab', { name: 'Project' }).click();
     await page.locator('[role="treeitem"][data-path="monday.mcap"]').click();
     await seen(
@@ -41,6 +45,7 @@ test(
     );
     await seen(page.getByText('Showing monday.mcap.'));
     const active = (/** @type {string} */ name) => seen(button(`Why ${name}?`));
+    assert.equal(readFileSync(join(place, 'Twice.plan.json'), 'utf8'), plan);
     await active('first');
     await button('To the next step of the plan').click();
     await active('second');

@@ -188,7 +188,6 @@ void Workbench::open_recording(const Call& call) {
     const std::string path = call.in["path"];
     const auto file = recording_at(path);
     if (!file.ok()) return call.fail(file.error());
-    if (!save_all(call)) return;
     using Read = Result<record::PastRun>;
     worked<Read>(
         worker_.poster(), [file = file.value()] { return record::read_past(file, std::nullopt); },

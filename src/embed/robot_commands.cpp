@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "run/traced_variables.hpp"
+#include "session/driving.hpp"
 
 namespace vagus::embed {
 
@@ -128,6 +129,13 @@ void RobotCommands::raise(const fleet::Command& command, const Done& done) {
 
 void RobotCommands::set(const fleet::Command& command, Done done) {
     if (!command.node.empty()) {
+        const debug::Network& network = robot_.session->network();
+        const auto node = network.find(command.node);
+        const std::string why =
+            node.ok() ? session::why_not_from_afar(network, node.value(), command.name,
+                                                   command.values, safe_stop())
+                      : "";
+        if (!why.empty()) return done(why);
         return nodes_.set(command.node, command.name, command.values, std::move(done));
     }
     if (!plan_runs()) return done("no plan runs; name the node of the variable: NODE.NAME");
@@ -162,10 +170,12 @@ fleet::Shown RobotCommands::shown() const {
         shown.problems.emplace_back(utf8_prefix(problem, fleet::kLineBytesMax));
     };
     if (!refused_.empty()) add(refused_);
-    bool runs = false;
+    bool runs = false, away = false;
     for (const session::NodeState& node : robot_.session->nodes()) {
         const debug::NodeView* const view = robot_.session->network().node(node.id);
-        if (view != nullptr && !view->connected) add(node.name + " is away");
+        const bool is_away = view != nullptr && !view->connected;
+        if (is_away) add(node.name + " is away");
+        away = away || is_away;
         if (!node.fault.empty()) add(node.name + ": " + in_project(robot_, node.fault));
         const bool running = node.has_script && node.state == debug::ProgramState::Running;
         const std::string endless = running ? robot_.session->endless(node.id) : "";
@@ -179,7 +189,9 @@ fleet::Shown RobotCommands::shown() const {
     if (!plan_error_.empty()) add("its plan ended in an error: " + plan_error_);
     if (plan_runs()) shown.actor = actor_;
     const char* const does = paused() ? "paused" : runs || plan_runs() ? "running" : "stopped";
-    shown.state = shown.problems.empty() ? does : "fault";
+    // One that is stopped does what it is to do; what was wrong before that is told all the same.
+    const bool is_well = shown.problems.empty() || (is_stopped_ && !runs && !away);
+    shown.state = is_well ? does : "fault";
     return shown;
 }
 

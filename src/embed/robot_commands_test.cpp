@@ -138,6 +138,36 @@ TEST_F(RobotCommandsTest, WithoutAPlanNothingIsRaised) {
 }
 
 // It is in what runs at the start, and no event ends it: the node itself tells nothing.
+// Who sets it is nowhere that anybody would miss them: it would drive for ever.
+TEST_F(RobotCommandsTest, WhatDrivesARobotIsNotSetFromAfar) {
+    open(kWithoutPlan);
+    const fleet::Command set{
+        .verb = "set", .node = "thymio-II", .name = "motor.left.target", .values = {100}};
+    EXPECT_EQ(obey({.verb = "stop"}), "done");
+    EXPECT_THAT(obey(set), HasSubstr("motor.left.target drives the robot, and would go on"));
+    fleet::Command rest = set;
+    rest.values = {0};
+    EXPECT_EQ(obey(rest), "done");
+    fleet::Command other = set;
+    other.name = "n";
+    EXPECT_EQ(obey(other), "done");
+}
+
+// It was stopped like all others; what it did wrong is told until it runs again.
+TEST_F(RobotCommandsTest, AFaultIsOverWhenItsRobotIsStopped) {
+    open(kWithoutPlan,
+         "<network>\n<node nodeId=\"1\" name=\"thymio-II\">var a[2]\nvar i = 5\n"
+         "onevent prox\na[i] = 1\n</node></network>");
+    run_->step(1s);
+    EXPECT_EQ(state(), "fault");
+    EXPECT_EQ(obey({.verb = "stop"}), "done");
+    EXPECT_EQ(state(), "stopped");
+    EXPECT_THAT(run_->commands(0).shown().problems, ElementsAre(HasSubstr("s.aesl:5")));
+    EXPECT_EQ(obey({.verb = "start"}), "done");
+    run_->step(1s);
+    EXPECT_EQ(state(), "fault");
+}
+
 TEST_F(RobotCommandsTest, ALoopThatNoEventEndsIsAFaultAtItsLine) {
     open(kWithoutPlan,
          "<network>\n<node nodeId=\"1\" name=\"thymio-II\">var go = 0\n"

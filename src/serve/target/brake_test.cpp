@@ -108,10 +108,31 @@ TEST_F(BrakeTest, PauseStopAndResetOfANodeStopTheWheels) {
     }
 }
 
+// A fleet's operator gives an order and is gone.
+TEST_F(BrakeTest, WhatDrivesIsNotWrittenForSomebodyWithoutAPage) {
+    run();
+    std::string why = "no answer";
+    const auto write = [&](int16_t value) {
+        target.write("drive", "wheel.target", {value},
+                     [&](const std::string& told) { why = told; });
+        pass(100ms);
+        return why;
+    };
+    bus.sent.clear();
+    EXPECT_THAT(write(50), testing::HasSubstr("wheel.target drives the robot"));
+    EXPECT_EQ(count_sent(kDrive, Type::SetVariables), 0u);
+    EXPECT_EQ(write(0), "");
+}
+
 TEST_F(BrakeTest, AFaultOfANodeStopsTheWheels) {
     run();
     bumper_faults();
     expect_braked();
+    EXPECT_TRUE(target.is_at_fault());
+    stop();
+    pass(200ms);
+    EXPECT_FALSE(target.is_at_fault());  // the next run has none yet
+    EXPECT_THAT(target.problems(), testing::SizeIs(1));
 }
 
 TEST_F(BrakeTest, OneThatIsLoadedWhileAnotherFaultsIsNotLetRun) {

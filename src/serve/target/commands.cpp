@@ -6,6 +6,7 @@
 #include "debug/condition.hpp"
 #include "serve/json.hpp"
 #include "serve/target/target.hpp"
+#include "session/driving.hpp"
 
 namespace vagus::serve {
 
@@ -119,6 +120,9 @@ void Target::write(const std::string& node, const std::string& variable,
         return done(fmt::format("{} has {} words; found {} values", variable, range.value().count,
                                 values.size()));
     }
+    const std::string why =
+        session::why_not_from_afar(*network_, id.value(), variable, values, safe_stop_);
+    if (!why.empty()) return done(why);
     will_move();
     start_batch(
         {id.value()}, [&](uint16_t one) { return network_->set(one, range.value(), values); },
@@ -138,6 +142,13 @@ std::vector<std::string> Target::problems() const {
         problems.push_back(fmt::format("{}{}: {}", name_of(node), place, known.fault));
     }
     return problems;
+}
+
+bool Target::is_at_fault() const {
+    return std::any_of(known_.begin(), known_.end(), [this](const auto& one) {
+        const bool stopped = stopping_.state_of(one.first) == StopNode::State::Stopped;
+        return one.second.away || (!one.second.fault.empty() && !stopped);
+    });
 }
 
 void Target::declare_node_commands() {

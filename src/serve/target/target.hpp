@@ -184,13 +184,16 @@ public:
     void step_paused(std::function<void(std::vector<std::string>)> done);
     // An event of the bus, from here.
     Status emit(const std::string& event, const std::vector<int16_t>& args);
-    // Writes "NAME", "NAME[3]" or "NAME[2:5]" of a node; `done` gets why not, or nothing.
+    // Writes "NAME", "NAME[3]" or "NAME[2:5]" of a node, for somebody without a page: nothing that
+    // drives it. `done` gets why not, or nothing.
     void write(const std::string& node, const std::string& variable,
                const std::vector<int16_t>& values, std::function<void(std::string why)> done);
     // Whether a node of that name has that variable; the Error names what there is.
     Status find_variable(const std::string& node, const std::string& name) const;
     // What people should know of nodes: faults, nodes that are away.
     std::vector<std::string> problems() const;
+    // One of those is not over: what a node did wrong before it was read back as stopped is.
+    bool is_at_fault() const;
     // A node is paused at a line of its script.
     bool is_paused_inside() const;
     // Empty if it is not there or has not told what it is.

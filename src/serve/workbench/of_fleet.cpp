@@ -30,7 +30,7 @@ Call call_for(Json in, Workbench::Obeyed done) {
 
 fleet::Shown Workbench::shown() const {
     fleet::Shown shown{.actor = run_.actor(), .problems = target_.problems()};
-    const bool fault = !shown.problems.empty();
+    const bool fault = target_.is_at_fault();
     for (const std::string& node : missing_nodes()) {
         shown.problems.push_back(node + " is not there");
     }

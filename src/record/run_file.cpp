@@ -122,20 +122,21 @@ PackedFiles pack(const std::map<std::string, std::string>& read) {
     return packed;
 }
 
-Result<UnpackedFolder> UnpackedFolder::make() {
-    return UnpackedFolder(TRY(TemporaryFolder::make("unpacked")));
-}
-
-Status UnpackedFolder::add(const std::string& name, std::string_view content) const {
+Status write_inside(const std::string& folder, const std::string& name, std::string_view content) {
     const fs::path inside = fs::path(name).lexically_normal();
     if (inside.empty() || inside.is_absolute() || *inside.begin() == "..") {
         return Error{Code::Refused, "the file \"" + name +
                                         "\" of the recording leads out of its folder; it is not "
                                         "written"};
     }
+    const fs::path path = fs::path(folder) / inside;
     std::error_code error;
-    fs::create_directories((fs::path(folder_.path()) / inside).parent_path(), error);
-    return write_file_unsynced(path_of(name), content);
+    fs::create_directories(path.parent_path(), error);
+    return write_file_unsynced(path.string(), content);
+}
+
+Result<UnpackedFolder> UnpackedFolder::make() {
+    return UnpackedFolder(TRY(TemporaryFolder::make("unpacked")));
 }
 
 std::string UnpackedFolder::path_of(const std::string& name) const {

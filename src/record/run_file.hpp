@@ -71,12 +71,16 @@ struct PackedFiles {
 // `read` by path, as it was read.
 PackedFiles pack(const std::map<std::string, std::string>& read);
 
+// Writes a file of a recording into a folder. Refuses a name that leads out of it.
+Status write_inside(const std::string& folder, const std::string& name, std::string_view content);
+
 // A folder for the files of a recording, which goes with its owner.
 class UnpackedFolder {
 public:
     static Result<UnpackedFolder> make();
-    // Refuses names that lead out of it.
-    Status add(const std::string& name, std::string_view content) const;
+    Status add(const std::string& name, std::string_view content) const {
+        return write_inside(folder_.path(), name, content);
+    }
     std::string path_of(const std::string& name) const;
 
 private:

@@ -30,6 +30,7 @@ import { pastCommands } from './commands/past_commands';
 import { viewCommands } from './commands/view_commands';
 import { refuse, whyNot } from './commands/why_not';
 import { worldCommands } from './views/world/world_commands';
+import { followRecorded } from './follow_recorded';
 import { followTests } from './follow_tests';
 import { StudioContext } from './hooks';
 import { PageGuard } from './page_guard';
@@ -65,6 +66,7 @@ function start(): void {
   studio.registry.refuse = (command, key) => refuse(studio, command, key);
   followAlways(studio);
   followTests(studio);
+  followRecorded(studio);
   studio.connection.start();
   const root = document.getElementById('root');
   if (root)

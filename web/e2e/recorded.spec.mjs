@@ -1,11 +1,11 @@
 // A recording that cannot be run again, as that of a real robot, is shown as it was recorded.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawnSync } from 'node:child_process';
 import { cpSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
-import { root, vagusProgram } from './support/server.mjs';
+import { root, temporaryFolder, vagusProgram } from './support/server.mjs';
 import { boxOf, gone, reads, seen, test } from './support/studio.mjs';
 /** @import { TestContext } from './support/studio.mjs' */
 
@@ -105,3 +105,30 @@ test(
     await gone(row);
   },
 );
+
+/** A run that somebody else has recorded, and nothing else of it. */
+function sent(/** @type {TestContext} */ t) {
+  const folder = temporaryFolder(t);
+  const file = join(folder, 'tuesday.mcap');
+  const place = join(root, 'examples/follow-wall');
+  const run = ['plan', 'run', join(place, 'WallFollow.plan.json'), '--clock', 'virtual', '--quiet'];
+  const world = ['--world', join(place, 'hall.world.json'), '--max-time', '10'];
+  // 5: its time was over.
+  const { status } = spawnSync(vagusProgram, [...run, ...world, '--record', file]);
+  assert.equal(status, 5);
+  return { folder, words: [file] };
+}
+
+test('a recording from anywhere is a project of its files', { prepare: sent }, async (studio) => {
+  const { page } = studio;
+  const ended = () => reads(page.locator('.clock'), /10\.\d+ s[^]*Paused/);
+  await seen(page.getByRole('tab', { name: /^WallFollow\.plan/ }));
+  await ended();
+  await page.getByRole('tab', { name: 'Project' }).click();
+  for (const path of ['carbot/carbot.aesl', 'follow-wall/hall.world.json', 'tuesday.mcap'])
+    await seen(page.locator(`[role="treeitem"][data-path="${path}"]`));
+  await look(studio, 'the recording as a project');
+  await page.reload();
+  await ended();
+  await seen(page.getByRole('button', { name: 'Why parallelToWall?' }));
+});

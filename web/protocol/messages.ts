@@ -966,6 +966,8 @@ export interface Project {
   help: string;
   /** example it is a copy of */
   copy_of?: string;
+  /** it was made of this recording, and nothing has run since: to be shown first */
+  recording?: Path;
   plan?: Path;
   world?: Path;
   /** the text of the world, or the picture on its ground, is another one than when it was opened */
@@ -979,7 +981,7 @@ export interface Project {
 /** Something in a folder of this computer. */
 export interface FolderEntry {
   name: string;
-  kind: 'folder' | 'project' | 'script' | 'plan' | 'world';
+  kind: 'folder' | 'project' | 'script' | 'plan' | 'world' | 'recording';
 }
 
 /** What all nodes of an .aesl file share. */
@@ -2462,8 +2464,8 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', text: 'text(2097152)?', to: 'int(0..1000000)?' },
-  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', plan: 'Path?', world: 'Path?', world_changed: 'bool?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
-  FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world)' },
+  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', recording: 'Path?', plan: 'Path?', world: 'Path?', world_changed: 'bool?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
+  FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world|recording)' },
   SharedFile: { path: 'Path', events: '[Definition; 65536]', constants: '[Definition; 65536]' },
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
   Failed: { node: 'NodeId', why: 'text(2000)' },

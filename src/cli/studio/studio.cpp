@@ -49,9 +49,10 @@ void add_studio(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<serve::StudioOptions>();  // owners: CLI11 and the callback
     auto no_browser = std::make_shared<bool>(false);
     takes_file(*verb->add_option("PROJECT", options->project,
-                                 "a folder with a vagus.json, or an .aesl, plan or world; without "
-                                 "it the start screen"),
-               {"vagus.json", ".aesl", ".plan.json", ".world.json"});
+                                 "a folder with a vagus.json, an .aesl, plan or world, or a "
+                                 "recording: a project is made of its files; without it the start "
+                                 "screen"),
+               {"vagus.json", ".aesl", ".plan.json", ".world.json", ".mcap"});
     verb->add_option("--example", options->example,
                      "opens the newest copy of an example instead: --example follow-wall")
         ->type_name("NAME");
@@ -82,6 +83,7 @@ void add_studio(CLI::App& app, int& exit_code) {
         "\n"
         "Example:\n"
         "  vagus studio examples/follow-wall\n"
+        "  vagus studio run.mcap\n"
         "  vagus studio --fleet mqtts://localhost:8883/lab --tls-ca broker/ca.crt --login "
         "broker/operator.login\n"
         "  vagus studio --listen 192.168.1.7 --token-file token --tls-cert me.pem --tls-key "

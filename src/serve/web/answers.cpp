@@ -71,17 +71,14 @@ Answer without_token(const Asking& asked, const Shown& shown) {
     return answer;
 }
 
-// "/stop" and "/stop?client=7": the number, or 0; of anything else nothing.
+// "/stop", or "/stop?client=7" of a page: its number, or 0. Whatever else follows, it is a Stop.
 std::optional<uint32_t> stopping_client(std::string_view target) {
-    constexpr std::string_view kStop = "/stop", kClient = "?client=";
-    if (!target.starts_with(kStop)) return std::nullopt;
-    target.remove_prefix(kStop.size());
-    if (target.empty()) return 0;
-    if (!target.starts_with(kClient)) return std::nullopt;
-    target.remove_prefix(kClient.size());
+    constexpr std::string_view kStop = "/stop", kClient = "/stop?client=";
+    if (target != kStop && !target.starts_with("/stop?")) return std::nullopt;
     uint32_t number = 0;
-    const auto read = std::from_chars(target.data(), target.data() + target.size(), number);
-    if (read.ec != std::errc() || read.ptr != target.data() + target.size()) return std::nullopt;
+    if (!target.starts_with(kClient)) return number;
+    target.remove_prefix(kClient.size());
+    (void)std::from_chars(target.data(), target.data() + target.size(), number);
     return number;
 }
 

@@ -12,13 +12,13 @@
 #include "base/result.hpp"
 #include "serve/json.hpp"
 #include "serve/workbench/kept.hpp"
+#include "serve/workbench/recorded_project.hpp"
 
 namespace vagus::serve {
 
 constexpr size_t kRecentMax = 20;
 constexpr size_t kRecentPathBytesMax = 1024;
 constexpr size_t kRecentNameBytesMax = 200;
-constexpr size_t kCopiesMax = 1000;  // of one name
 
 struct LibraryPlaces {
     std::filesystem::path data;      // of the user
@@ -48,6 +48,10 @@ public:
     // A project around a robot that was connected to: no script yet.
     Result<std::string> make_robot_project(const std::string& target);
 
+    // What a recording from anywhere is opened as.
+    Result<RecordedProject> project_of_recording(const std::string& path) const {
+        return serve::project_of_recording(path, places_.data / "projects");
+    }
     bool is_robot_project(const std::filesystem::path& folder) const;
 
     // ---- recent ----

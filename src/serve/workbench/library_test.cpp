@@ -12,6 +12,7 @@
 #include "base/file.hpp"
 #include "base/test_places.hpp"
 #include "embed/loaded_plan.hpp"
+#include "record/file_tape.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/new_files.hpp"
 #include "serve/workbench/opened.hpp"
@@ -154,6 +155,60 @@ TEST_F(LibraryTest, TheLatestOfWhatWasOpenedStandsFirstAndOnce) {
     EXPECT_EQ(recent[0]["there"], false);
     one.forget("/somewhere/5");
     EXPECT_EQ(one.recent()[0]["path"], "/somewhere/20");
+}
+
+// ---- recordings from anywhere ----
+
+struct RecordedProjectTest : LibraryTest {
+    // Of a run that set a variable, with these files.
+    std::string record(const record::PackedFiles& files) const {
+        fs::create_directories(data / "sent");
+        const std::string path = (data / "sent/run.mcap").string();
+        record::RunFile run{.verb = "plan run", .plan = "walls/A.plan.json", .set = {"far=30"}};
+        auto tape = record::start_tape(path, run, files, record::Pace::Waits);
+        EXPECT_TRUE(tape.ok());
+        const uint16_t about = tape.value()->declare({.name = std::string(record::kRunTopic)});
+        tape.value()->put(about, Time{}, record::format_run(run));
+        EXPECT_TRUE(tape.value()->end().ok());
+        return path;
+    }
+};
+
+TEST_F(RecordedProjectTest, HasTheFilesOfTheRun) {
+    const std::string path =
+        record({.files = {{"walls/A.plan.json", "{}"}, {"carbot/carbot.aesl", "<network/>"}}});
+    const auto made = library().project_of_recording(path);
+    ASSERT_TRUE(made.ok()) << made.error().what;
+    EXPECT_EQ(made.value().recording, "run.mcap");
+    const auto opened = open_path(made.value().folder);
+    ASSERT_TRUE(opened.ok()) << opened.error().what;
+    EXPECT_EQ(opened.value().name, "run");
+    EXPECT_EQ(opened.value().plan, "walls/A.plan.json");
+    EXPECT_EQ(opened.value().scripts, std::vector<std::string>{"carbot/carbot.aesl"});
+    using Set = std::vector<std::pair<std::string, std::string>>;
+    EXPECT_EQ(opened.value().start_set, (Set{{"far", "30"}}));
+    EXPECT_EQ(read_file(opened.value().real("carbot/carbot.aesl")).value(), "<network/>");
+}
+
+TEST_F(RecordedProjectTest, IsMadeOnceForEachRecording) {
+    const std::string first =
+        library().project_of_recording(record({.files = {{"a.aesl", "1"}}})).value().folder;
+    write(fs::path(first) / "a.aesl", "changed by hand");
+    const std::string path = record({.files = {{"a.aesl", "1"}}});
+    EXPECT_EQ(library().project_of_recording(path).value().folder, first);
+    EXPECT_EQ(read_file(first + "/a.aesl").value(), "changed by hand");
+    const std::string other = record({.files = {{"a.aesl", "2"}}});
+    EXPECT_EQ(library().project_of_recording(other).value().folder, first + "-2");
+}
+
+TEST_F(RecordedProjectTest, NothingIsLeftOfOneThatCannotBeMade) {
+    const std::string path = record({.files = {{"../../out.aesl", "1"}}});
+    const auto made = library().project_of_recording(path);
+    ASSERT_FALSE(made.ok());
+    EXPECT_NE(made.error().what.find("leads out of its folder"), std::string::npos);
+    write(data / "sent/text.mcap", "no recording");
+    EXPECT_FALSE(library().project_of_recording((data / "sent/text.mcap").string()).ok());
+    EXPECT_TRUE(fs::is_empty(data / "projects"));
 }
 
 // ---- what a path opens ----

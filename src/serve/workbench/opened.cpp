@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kWhatOpens =
-    "open a folder with a vagus.json, or a file NAME.aesl, NAME.plan.json, NAME.world.json";
+    "open a folder with a vagus.json, a file NAME.aesl, NAME.plan.json, NAME.world.json, "
+    "or a recording NAME.mcap";
 
 Result<OpenedProject> open_folder(const fs::path& folder) {
     const fs::path file = folder / kProjectFileName;
@@ -110,6 +111,7 @@ nlohmann::json OpenedProject::to_json() const {
     nlohmann::json json = {{"folder", folder},   {"name", name},     {"help", help},
                            {"scripts", scripts}, {"target", target}, {"border", root.string()}};
     if (!copy_of.empty()) json["copy_of"] = copy_of;
+    if (!recording.empty()) json["recording"] = recording;
     if (!plan.empty()) json["plan"] = plan;
     if (!world.empty()) json["world"] = world;
     return json;

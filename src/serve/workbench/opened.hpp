@@ -32,7 +32,8 @@ struct OpenedProject {
     session::SafeStop safe_stop;  // what its file says of nodes
     fleet::ProjectPart fleet;
     std::vector<std::pair<std::string, std::string>> start_set;
-    std::string copy_of;  // an example
+    std::string copy_of;    // an example
+    std::string recording;  // what the project was made of: it is looked at first
 
     // A path of the project as one of this computer.
     std::string real(const std::string& path) const { return (root / path).string(); }

@@ -7,6 +7,7 @@
 #include "aesl/project_text.hpp"
 #include "aesl/target.hpp"
 #include "base/time.hpp"
+#include "serve/history/kept_run.hpp"
 #include "serve/json.hpp"
 #include "serve/workbench/new_files.hpp"
 #include "session/known_nodes.hpp"
@@ -212,8 +213,8 @@ Json Workbench::list_folder(const std::string& path) const {
             entries.push_back({{"name", name}, {"kind", project ? "project" : "folder"}});
             continue;
         }
-        const std::string kind = kind_of_file(name);
-        if (kind == "script" || kind == "plan" || kind == "world") {
+        const std::string kind = is_recording_file(name) ? "recording" : kind_of_file(name);
+        if (kind == "script" || kind == "plan" || kind == "world" || kind == "recording") {
             entries.push_back({{"name", name}, {"kind", kind}});
         }
     }
@@ -233,13 +234,21 @@ Json Workbench::list_folder(const std::string& path) const {
 Status Workbench::open(const std::string& path, Time now, std::function<void()> then,
                        const std::string& by) {
     now_ = now;
-    OpenedProject project = TRY(open_path(path));
+    OpenedProject project = TRY(project_at(path));
     leave({by, life::Why::Project}, [this, project = std::move(project), then = std::move(then)] {
         forget_project();
         enter(project);
         then();
     });
     return Status::done();
+}
+
+Result<OpenedProject> Workbench::project_at(const std::string& path) const {
+    if (!is_recording_file(path)) return open_path(path);
+    const RecordedProject made = TRY(library_.project_of_recording(path));
+    OpenedProject project = TRY(open_path(made.folder));
+    project.recording = project.doc_of(made.folder + "/" + made.recording);
+    return project;
 }
 
 Status Workbench::open_example(const std::string& id, Time now) {
@@ -411,6 +420,13 @@ void Workbench::keep_breakpoints() {
     }
 }
 
+// What has run since is what people look at.
+void Workbench::forget_recording() {
+    if (!project_ || project_->recording.empty() || run_.time() <= 0) return;
+    project_->recording.clear();
+    desk_.topics().touch("studio");
+}
+
 // ---- time ----
 
 void Workbench::hear(const net::Event& event) {
@@ -421,6 +437,7 @@ void Workbench::tick(Time now) {
     now_ = now;
     watch_sleep();
     run_.tick(now);
+    forget_recording();
     live();
     watch_run();
     target_.tick(now);

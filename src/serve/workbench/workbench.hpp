@@ -178,7 +178,9 @@ private:
     void declare_topics();
     void declare_project_commands();
     void declare_kept_commands();
+    Result<OpenedProject> project_at(const std::string& path) const;
     void enter(OpenedProject project);
+    void forget_recording();
     void forget_project();
     void project_file_changed();
     void take_safe_stop();

@@ -77,7 +77,7 @@ export default function FolderChooser() {
                 autoFocus={index === 0}
                 onClick={() => enter(entry)}
               >
-                <FileIcon kind={entry.kind} />
+                <FileIcon kind={entry.kind === 'recording' ? 'other' : entry.kind} />
                 {entry.name}
               </button>
             </li>

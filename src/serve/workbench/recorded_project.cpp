@@ -1,0 +1,89 @@
+#include "serve/workbench/recorded_project.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/file.hpp"
+#include "base/project_border.hpp"
+#include "mcap/reader.hpp"
+#include "record/past_run.hpp"
+#include "serve/json.hpp"
+
+namespace vagus::serve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool same_content(const fs::path& one, std::string_view bytes) {
+    std::error_code failed;
+    if (fs::file_size(one, failed) != bytes.size() || failed) return false;
+    const auto there = MappedFile::open(one.string());
+    return there.ok() && there.value().bytes() == bytes;
+}
+
+std::string project_file_of(const std::string& name, const record::RunFile& run,
+                            const mcap::Reader& reader) {
+    Json project = {{"format", "vagus-project/1"},
+                    {"name", name},
+                    {"help", "The files of the run that was recorded, as they were then."}};
+    if (!run.plan.empty()) project["plan"] = run.plan;
+    if (!run.world.empty()) project["world"] = run.world;
+    if (!run.toolboxes.empty()) project["toolboxes"] = run.toolboxes;
+    for (const mcap::Attachment& one : reader.attachments()) {
+        // Robots with projects of their own have their scripts there.
+        if (run.robots.empty() && one.name.ends_with(".aesl")) project["scripts"] += one.name;
+    }
+    for (const std::string& set : run.set) {
+        const size_t equals = std::min(set.find('='), set.size());
+        project["start"]["set"][set.substr(0, equals)] =
+            set.substr(std::min(equals + 1, set.size()));
+    }
+    return project.dump(2) + "\n";
+}
+
+// What is refused by one file is not written around it.
+Status write_files(const fs::path& folder, const std::string& name, const mcap::Reader& reader) {
+    const record::RecordedRun run = TRY(record::read_recorded(reader));
+    for (const mcap::Attachment& one : reader.attachments()) {
+        TRY(record::write_inside(folder, one.name, one.data));
+    }
+    if (reader.attachment(kProjectFileName) != nullptr) return Status::done();
+    return write_file_unsynced((folder / kProjectFileName).string(),
+                               project_file_of(name, run.about, reader));
+}
+
+// The recording comes last: a folder with it in it is whole.
+Status make_project(const fs::path& folder, const fs::path& recording, std::string_view bytes) {
+    const mcap::Reader reader = TRY(mcap::Reader::open(bytes, recording.string()));
+    TRY(write_files(folder, recording.stem().string(), reader));
+    return write_file_unsynced((folder / recording.filename()).string(), bytes);
+}
+
+}  // namespace
+
+Result<RecordedProject> project_of_recording(const fs::path& recording, const fs::path& projects) {
+    const MappedFile file = TRY(MappedFile::open(recording.string()));
+    const std::string name = recording.filename().string();
+    const std::string stem = recording.stem().string();
+    std::error_code failed;
+    for (size_t number = 1; number <= kCopiesMax; ++number) {
+        const fs::path folder =
+            projects / (number == 1 ? stem : fmt::format("{}-{}", stem, number));
+        RecordedProject made{.folder = folder.string(), .recording = name};
+        if (same_content(folder / name, file.bytes())) return made;
+        if (fs::exists(folder, failed)) continue;
+        fs::create_directories(folder, failed);
+        const Status written = make_project(folder, recording, file.bytes());
+        if (written.ok()) return made;
+        fs::remove_all(folder, failed);
+        return written.error();
+    }
+    return Error{Code::Limit,
+                 fmt::format("{}: there are more than {} projects named {}; delete some",
+                             projects.string(), kCopiesMax, stem)};
+}
+
+}  // namespace vagus::serve

@@ -161,12 +161,14 @@ TEST_F(LibraryTest, TheLatestOfWhatWasOpenedStandsFirstAndOnce) {
 
 struct RecordedProjectTest : LibraryTest {
     // Of a run that set a variable, with these files.
-    std::string record(const record::PackedFiles& files) const {
+    std::string record(std::map<std::string, std::string> files) const {
         fs::create_directories(data / "sent");
         const std::string path = (data / "sent/run.mcap").string();
-        record::RunFile run{.verb = "plan run", .plan = "walls/A.plan.json", .set = {"far=30"}};
-        auto tape = record::start_tape(path, run, files, record::Pace::Waits);
+        record::RunFile of_paths;
+        const record::PackedFiles packed{.root = "", .files = std::move(files)};
+        auto tape = record::start_tape(path, of_paths, packed, record::Pace::Waits);
         EXPECT_TRUE(tape.ok());
+        const record::RunFile run{.plan = "walls/A.plan.json", .set = {"far=30"}};
         const uint16_t about = tape.value()->declare({.name = std::string(record::kRunTopic)});
         tape.value()->put(about, Time{}, record::format_run(run));
         EXPECT_TRUE(tape.value()->end().ok());
@@ -176,7 +178,7 @@ struct RecordedProjectTest : LibraryTest {
 
 TEST_F(RecordedProjectTest, HasTheFilesOfTheRun) {
     const std::string path =
-        record({.files = {{"walls/A.plan.json", "{}"}, {"carbot/carbot.aesl", "<network/>"}}});
+        record({{"walls/A.plan.json", "{}"}, {"carbot/carbot.aesl", "<network/>"}});
     const auto made = library().project_of_recording(path);
     ASSERT_TRUE(made.ok()) << made.error().what;
     EXPECT_EQ(made.value().recording, "run.mcap");
@@ -192,17 +194,17 @@ TEST_F(RecordedProjectTest, HasTheFilesOfTheRun) {
 
 TEST_F(RecordedProjectTest, IsMadeOnceForEachRecording) {
     const std::string first =
-        library().project_of_recording(record({.files = {{"a.aesl", "1"}}})).value().folder;
+        library().project_of_recording(record({{"a.aesl", "1"}})).value().folder;
     write(fs::path(first) / "a.aesl", "changed by hand");
-    const std::string path = record({.files = {{"a.aesl", "1"}}});
+    const std::string path = record({{"a.aesl", "1"}});
     EXPECT_EQ(library().project_of_recording(path).value().folder, first);
     EXPECT_EQ(read_file(first + "/a.aesl").value(), "changed by hand");
-    const std::string other = record({.files = {{"a.aesl", "2"}}});
+    const std::string other = record({{"a.aesl", "2"}});
     EXPECT_EQ(library().project_of_recording(other).value().folder, first + "-2");
 }
 
 TEST_F(RecordedProjectTest, NothingIsLeftOfOneThatCannotBeMade) {
-    const std::string path = record({.files = {{"../../out.aesl", "1"}}});
+    const std::string path = record({{"../../out.aesl", "1"}});
     const auto made = library().project_of_recording(path);
     ASSERT_FALSE(made.ok());
     EXPECT_NE(made.error().what.find("leads out of its folder"), std::string::npos);

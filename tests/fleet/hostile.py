@@ -54,7 +54,7 @@ class Links(Case):
             self.wait_state(name, "running")
         watch = self.watch()
         self.do("set", "r1", "thymio-II.go", 1)
-        watch.wait_line(r"^r2: thymio-II\.heard = 3$")
+        watch.wait_line(r"^r2: thymio-II\.heard = ([3-9]|\d\d)$")  # at least three: not each value is told
         trouble()
         watch.wait_line(rf"^r2: thymio-II\.heard = {events}$")
         self.assertFalse([line for line in watch.lines if line.startswith("r2: thymio-II.wrong") and not line.endswith("= 0")],

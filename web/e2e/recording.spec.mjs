@@ -12,7 +12,11 @@ const examples = path.resolve(import.meta.dirname, '../../examples');
 const decompressHandlers = { zstd: (/** @type {Uint8Array} */ bytes) => zstdDecompressSync(bytes) };
 
 /** So many simulated seconds of the wall follower. */
-function recorded(/** @type {string} */ folder, seconds = 10, /** @type {string[]} */ options = []) {
+function recorded(
+  /** @type {string} */ folder,
+  seconds = 10,
+  /** @type {string[]} */ options = [],
+) {
   const file = path.join(folder, 'run.mcap');
   const plan = path.join(examples, 'follow-wall/WallFollow.plan.json');
   const world = path.join(examples, 'follow-wall/hall.world.json');

@@ -191,7 +191,7 @@ class BusPlans(Case):
         page = self.open_robot()
         self.start()
         page.do("target.leave")
-        self.assertEqual(self.studio.children(), [])
+        self.wait(lambda: not self.studio.children(), "the end of the process of the run")
         self.wait_plan("none")
         with Bus(self.port) as bus:  # the robot is there for others
             bus.leave()

@@ -192,6 +192,17 @@ TEST_F(RecordedProjectTest, HasTheFilesOfTheRun) {
     EXPECT_EQ(read_file(opened.value().real("carbot/carbot.aesl")).value(), "<network/>");
 }
 
+// The root of all examples has one that names nothing.
+TEST_F(RecordedProjectTest, HasAProjectFileThatNamesThePlanBesideOneThatOnlyMarksTheRoot) {
+    const std::string mark = R"({"format": "vagus-project/1", "name": "All"})";
+    const auto made = library().project_of_recording(record({{"vagus.json", mark}}));
+    ASSERT_TRUE(made.ok()) << made.error().what;
+    EXPECT_EQ(open_path(made.value().folder).value().plan, "walls/A.plan.json");
+    const std::string own = R"({"format": "vagus-project/1", "scripts": ["a.aesl"]})";
+    const auto kept = library().project_of_recording(record({{"vagus.json", own}}));
+    EXPECT_EQ(read_file(kept.value().folder + "/vagus.json").value(), own);
+}
+
 TEST_F(RecordedProjectTest, IsMadeOnceForEachRecording) {
     const std::string first =
         library().project_of_recording(record({{"a.aesl", "1"}})).value().folder;

@@ -10,6 +10,7 @@
 #include "mcap/reader.hpp"
 #include "record/past_run.hpp"
 #include "serve/json.hpp"
+#include "session/project_file.hpp"
 
 namespace vagus::serve {
 
@@ -44,13 +45,22 @@ std::string project_file_of(const std::string& name, const record::RunFile& run,
     return project.dump(2) + "\n";
 }
 
+// One that only marks how far projects reach names nothing.
+bool has_project_file(const mcap::Reader& reader) {
+    const mcap::Attachment* const file = reader.attachment(kProjectFileName);
+    if (file == nullptr) return false;
+    const auto read = session::read_project_file(file->data, file->name);
+    return read.ok() && !(read.value().plan.empty() && read.value().world.empty() &&
+                          read.value().scripts.empty());
+}
+
 // What is refused by one file is not written around it.
 Status write_files(const fs::path& folder, const std::string& name, const mcap::Reader& reader) {
     const record::RecordedRun run = TRY(record::read_recorded(reader));
     for (const mcap::Attachment& one : reader.attachments()) {
         TRY(record::write_inside(folder, one.name, one.data));
     }
-    if (reader.attachment(kProjectFileName) != nullptr) return Status::done();
+    if (has_project_file(reader)) return Status::done();
     return write_file_unsynced((folder / kProjectFileName).string(),
                                project_file_of(name, run.about, reader));
 }

@@ -195,7 +195,8 @@ TEST_F(RecordedProjectTest, HasTheFilesOfTheRun) {
 // The root of all examples has one that names nothing.
 TEST_F(RecordedProjectTest, HasAProjectFileThatNamesThePlanBesideOneThatOnlyMarksTheRoot) {
     const std::string mark = R"({"format": "vagus-project/1", "name": "All"})";
-    const auto made = library().project_of_recording(record({{"vagus.json", mark}}));
+    const auto made =
+        library().project_of_recording(record({{"vagus.json", mark}, {"walls/A.plan.json", "{}"}}));
     ASSERT_TRUE(made.ok()) << made.error().what;
     EXPECT_EQ(open_path(made.value().folder).value().plan, "walls/A.plan.json");
     const std::string own = R"({"format": "vagus-project/1", "scripts": ["a.aesl"]})";

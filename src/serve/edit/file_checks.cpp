@@ -79,10 +79,17 @@ struct Subject {
     }
 };
 
+// Seen from the root of the project. A folder may be named with a slash behind it.
+std::string path_of(const Subject& subject, const NamedPath& named) {
+    std::string path = path_from(subject.path, named.text);
+    if (named.folder && path.size() > 1 && path.ends_with('/')) path.pop_back();
+    return path;
+}
+
 // Files that it names and that are not there.
 void check_named(const Subject& subject) {
     for (const NamedPath& named : named_paths(subject.path, subject.text)) {
-        const std::string path = path_from(subject.path, named.text);
+        const std::string path = path_of(subject, named);
         if (named.folder && is_border(path)) continue;
         const bool inside = check_path(path).ok();
         if (inside && (named.folder || subject.files.exists(path))) continue;

@@ -405,6 +405,22 @@ TEST_F(EditTest, AWorldMayNameTheFolderThatItIsIn) {
     EXPECT_THAT(findings(), IsEmpty());
 }
 
+TEST_F(EditTest, AWorldMayNameAFolderWithASlashBehindIt) {
+    write("vagus.json", "{ \"format\": \"vagus-project/1\", \"world\": \"in/w.world.json\" }\n");
+    write("in/picker/vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
+    const auto world = [](std::string_view project) {
+        return R"({ "format": "vagus-world/1", "size": [2, 2],
+  "robots": [{ "name": "t", "type": "thymio2", "at": [1, 1], "project": ")" +
+               std::string(project) + "\" }] }";
+    };
+    write("in/w.world.json", world("picker/"));
+    enter({.world = "in/w.world.json", .project_file = "vagus.json"});
+    EXPECT_THAT(findings(), IsEmpty());
+    write("in/w.world.json", world("../../picker/"));
+    enter({.world = "in/w.world.json", .project_file = "vagus.json"});
+    EXPECT_THAT(finding("named_file").what, HasSubstr("leads out of the project"));
+}
+
 TEST_F(EditTest, ProjectsInsideAreNotThisOne) {
     write("vagus.json", "{ \"format\": \"vagus-project/1\" }\n");
     write("bad.plan.json", "{}\n");

@@ -13,7 +13,7 @@ export function RobotChoice() {
       .catch((problem: unknown) => studio.tell(problem));
   return (
     <select
-      className="field field--ui"
+      className="field field--ui field--small tl__robot"
       aria-label={words.planOf}
       title={words.planOf}
       value={trace.robot ?? ''}

@@ -10,6 +10,7 @@ import { useCommands, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import '../../look/timeline.css';
 import { EarlierRuns } from './earlier_runs';
 import { RobotChoice } from './robot_choice';
 import { words } from './words';

@@ -137,7 +137,6 @@ TEST_F(RobotCommandsTest, WithoutAPlanNothingIsRaised) {
     EXPECT_EQ(obey({.verb = "raise", .supervisor = "ear", .event = "Received"}), "no plan runs");
 }
 
-// It is in what runs at the start, and no event ends it: the node itself tells nothing.
 // Who sets it is nowhere that anybody would miss them: it would drive for ever.
 TEST_F(RobotCommandsTest, WhatDrivesARobotIsNotSetFromAfar) {
     open(kWithoutPlan);
@@ -168,6 +167,7 @@ TEST_F(RobotCommandsTest, AFaultIsOverWhenItsRobotIsStopped) {
     EXPECT_EQ(state(), "fault");
 }
 
+// It is in what runs at the start, and no event ends it: the node itself tells nothing.
 TEST_F(RobotCommandsTest, ALoopThatNoEventEndsIsAFaultAtItsLine) {
     open(kWithoutPlan,
          "<network>\n<node nodeId=\"1\" name=\"thymio-II\">var go = 0\n"

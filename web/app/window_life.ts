@@ -64,8 +64,8 @@ export function useKeys(): void {
 }
 
 /**
- * While a word is composed its keys are the input method's: Enter takes the word, and neither ends the field
- * nor sends a form; Escape gives up the word alone. The editor knows that by itself.
+ * While a word is being composed, its keys belong to the input method: Enter accepts the word without leaving
+ * the field or submitting a form, and Escape cancels only the composition. The editor handles this itself.
  */
 function leaveComposing(event: KeyboardEvent): void {
   if (!event.isComposing) return;

@@ -20,7 +20,7 @@ export function normalKey(text: string): string {
 
 /**
  * The spellings by which a press can be meant, the exact one first; "?" is met with or without Shift.
- * What AltGr types, and Option on a keyboard of Apple, is typed: nothing is meant by it.
+ * Characters typed with AltGr, or with Option on Apple keyboards, are typed: they are no shortcuts.
  */
 export function pressedKeys(press: KeyPress, isApple = false): string[] {
   const { key, altKey, shiftKey } = press;

@@ -80,11 +80,11 @@ describe('keys', () => {
     expect(pressedKeys(press('l', { code: 'KeyL', altKey: true }))).toEqual(['Alt+L']);
     expect(pressedKeys(press('F12', { altKey: true }), true)).toEqual(['Alt+F12']);
   });
-  test('OnAKeyboardOfAppleControlAndOptionAreAlt', () => {
+  test('OnAppleKeyboardsControlAndOptionAreAlt', () => {
     const held = { ctrlKey: true, altKey: true };
     expect(pressedKeys(press('¬', { ...held, code: 'KeyL' }), true)).toEqual(['Alt+L']);
     expect(pressedKeys(press('ß', { ...held, code: 'KeyS' }), true)).toEqual(['Alt+S']);
-    // An AZERTY one of them tells its own letter.
+    // On an Apple AZERTY keyboard the browser reports the letter of that layout.
     expect(pressedKeys(press('a', { ...held, code: 'KeyQ' }), true)).toEqual(['Alt+A']);
     const shifted = press('Dead', { ...held, shiftKey: true, code: 'KeyU' });
     expect(pressedKeys(shifted, true)).toEqual(['Alt+Shift+U']);

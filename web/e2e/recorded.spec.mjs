@@ -35,7 +35,7 @@ test(
   async (studio) => {
     const { page, layout, button, press, command, place } = studio;
     await layout('Draw');
-    // What is not saved stays so: who looks into a recording has not asked for it.
+    // Opening a recording does not save unsaved changes: nobody asked for that.
     await command('Plan: new variable');
     await seen(page.getByText('Not saved'));
     await page.getByRole('tab', { name: 'Project' }).click();

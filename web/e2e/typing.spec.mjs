@@ -1,4 +1,4 @@
-// Keyboards of others: what an input method composes, and what keys of Apple are called and do.
+// Other keyboards: what an input method composes, and what the keys of Apple keyboards are called and do.
 import assert from 'node:assert/strict';
 import { boxOf, focused, gone, reads, seen, test, until } from './support/studio.mjs';
 

@@ -2,8 +2,8 @@
 export const onApple = /Mac|iPhone|iPad/.test(navigator.platform);
 
 /**
- * Keys as they are named on the keyboard of who reads. Option and a letter type on one of Apple: there
- * Ctrl+Option means what Alt means elsewhere (core/keys.ts).
+ * Keys by the names on the reader's keyboard. On Apple keyboards Option and a letter type a character, so
+ * Ctrl+Option stands for Alt there (core/keys.ts).
  */
 export function keysShown(keys: string, isApple = onApple): string {
   // Cmd+Space is the system's.

@@ -13,6 +13,7 @@
 #include "record/compare_tape.hpp"
 #include "record/damage.hpp"
 #include "record/recorder.hpp"
+#include "record/robot_topics.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
 
@@ -34,20 +35,6 @@ struct Survey {
     Time end{};
     std::string how;  // it ended, as JSON
 };
-
-// Whose topic it is of those robots, whose names may have any letters, of two that fit the longer
-// one; empty: nobody's.
-std::string robot_of(std::string_view topic, const std::set<std::string, std::less<>>& robots) {
-    std::string longest;
-    if (robots.empty() || !topic.starts_with(kRobotTopics)) return longest;
-    const std::string_view rest = topic.substr(kRobotTopics.size());
-    for (size_t end = rest.find('/'); end != std::string_view::npos;
-         end = rest.find('/', end + 1)) {
-        const auto found = robots.find(rest.substr(0, end));
-        if (found != robots.end()) longest = *found;
-    }
-    return longest;
-}
 
 class Surveyor {
 public:
@@ -77,7 +64,7 @@ private:
     // The first message of a recording says which robots there are.
     void see(std::string_view topic, Time at, std::string_view data) {
         if (align_.at != Align::At::Start) robot_ = robot_of(topic, robots_);
-        if (!robot_.empty()) topic.remove_prefix(kRobotTopics.size() + robot_.size());
+        topic = below_robot(topic, robot_);
         const bool events = align_.at == Align::At::Event && topic == kEventsTopic;
         if (topic != kRunTopic && topic != kTraceTopic && !events) return;
         auto json = read_json(data);
@@ -119,7 +106,7 @@ private:
 
     const mcap::Reader& reader_;
     const Align& align_;
-    std::set<std::string, std::less<>> robots_;
+    RobotNames robots_;
     std::string robot_;  // whose message is seen
     Survey made_;
 };
@@ -210,7 +197,7 @@ private:
 
     bool from_start_;
     Duration apart_;
-    std::set<std::string, std::less<>> robots_;
+    RobotNames robots_;
     std::vector<std::unique_ptr<Lane>> lanes_;
     std::map<std::string, Lane*> by_name_;
 };

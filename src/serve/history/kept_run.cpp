@@ -13,6 +13,7 @@
 #include "record/bus_messages.hpp"
 #include "record/damage.hpp"
 #include "record/past_run.hpp"
+#include "record/robot_topics.hpp"
 #include "record/topics.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/history/recorded_world.hpp"
@@ -107,6 +108,7 @@ public:
         : file_(file),
           reader_(reader),
           recorded_(std::move(recorded)),
+          robots_(recorded_.about.robots.begin(), recorded_.about.robots.end()),
           world_(reader, recorded_.about),
           files_(reader) {}
 
@@ -121,13 +123,13 @@ public:
             const mcap::Channel* const channel = reader_.channel(message->channel);
             if (channel == nullptr) continue;
             const Time at = record::time_of(message->log_time);
-            const Below below = below_robot(channel->topic);
+            const std::string robot = record::robot_of(channel->topic, robots_);
             if (world_.see(channel->topic, at, message->data)) {
                 run_->history.record(world_.take());
-            } else if (below.robot.empty()) {
+            } else if (robot.empty()) {
                 see(channel->topic, at, message->data);
             } else {
-                see_of(below, at, message->data);
+                see_of(robot, record::below_robot(channel->topic, robot), at, message->data);
             }
         }
         TRY(record::check_read(cursor, reader_));
@@ -136,17 +138,6 @@ public:
     }
 
 private:
-    // A channel of a robot with a project of its own: "r4", "/plan/trace".
-    struct Below {
-        std::string_view robot, topic;
-    };
-    static Below below_robot(std::string_view topic) {
-        if (!topic.starts_with(record::kRobotTopics)) return {"", topic};
-        topic.remove_prefix(record::kRobotTopics.size());
-        const size_t end = std::min(topic.find('/'), topic.size());
-        return {topic.substr(0, end), topic.substr(end)};
-    }
-
     Status choose_robot() {
         const std::vector<std::string>& all = run_->robots;
         plan_ = recorded_.about.plan;
@@ -199,11 +190,10 @@ private:
 
     // Of other robots than the chosen one there are the events; what its nodes tell each other is
     // known by their numbers alone.
-    void see_of(const Below& below, Time at, std::string_view data) {
-        const std::string robot(below.robot);
-        if (below.topic == record::kTraceTopic && robot == run_->robot) {
+    void see_of(const std::string& robot, std::string_view topic, Time at, std::string_view data) {
+        if (topic == record::kTraceTopic && robot == run_->robot) {
             see_line(at, std::string(data));
-        } else if (below.topic == record::kEventsTopic) {
+        } else if (topic == record::kEventsTopic) {
             see_event(at, data, robot);
         }
     }
@@ -222,10 +212,10 @@ private:
         if (!is_new) return found->second;
         constexpr std::string_view kBegins = "/node/", kEnds = "/variables";
         for (const mcap::Channel& channel : reader_.channels()) {
-            const Below below = below_robot(channel.topic);
-            if (below.robot != robot || !below.topic.starts_with(kBegins)) continue;
-            if (!below.topic.ends_with(kEnds)) continue;
-            const std::string_view name = below.topic.substr(kBegins.size());
+            if (record::robot_of(channel.topic, robots_) != robot) continue;
+            const std::string_view topic = record::below_robot(channel.topic, robot);
+            if (!topic.starts_with(kBegins) || !topic.ends_with(kEnds)) continue;
+            const std::string_view name = topic.substr(kBegins.size());
             found->second.emplace_back(name.substr(0, name.size() - kEnds.size()));
         }
         return found->second;
@@ -320,6 +310,7 @@ private:
     const KeptFile& file_;
     const mcap::Reader& reader_;
     const record::RecordedRun recorded_;
+    const record::RobotNames robots_;  // that have projects of their own
     RecordedWorld world_;
     FilesThen files_;
     std::string plan_;  // its file in the recording

@@ -14,14 +14,16 @@ namespace vagus::serve {
 
 namespace {
 
-double number_of(const Json& json, const char* name) {
+// Null, if there is none of that name.
+const Json& member_of(const Json& json, const char* name) {
+    static const Json kNone;
     const auto found = json.find(name);
-    return found != json.end() && found->is_number() ? found->get<double>() : 0;
+    return found != json.end() ? *found : kNone;
 }
 
-Json member_of(const Json& json, const char* name) {
-    const auto found = json.find(name);
-    return found != json.end() ? *found : Json();
+double number_of(const Json& json, const char* name) {
+    const Json& number = member_of(json, name);
+    return number.is_number() ? number.get<double>() : 0;
 }
 
 }  // namespace
@@ -63,15 +65,16 @@ bool RecordedWorld::see(std::string_view topic, Time at, std::string_view data) 
 
 // One box or cylinder, upright: its turn is about the axis that points up.
 void RecordedWorld::see_entity(const Json& entity) {
-    if (!entity.is_object() || !member_of(entity, "id").is_string()) return;
-    const auto key = keys_.find(entity["id"].get<std::string>());
+    const Json& id = member_of(entity, "id");
+    if (!id.is_string()) return;
+    const auto key = keys_.find(id.get<std::string>());
     if (key == keys_.end()) return;
     for (const char* const kind : {"cubes", "cylinders"}) {
-        const Json shapes = member_of(entity, kind);
+        const Json& shapes = member_of(entity, kind);
         if (!shapes.is_array() || shapes.empty()) continue;
-        const Json pose = member_of(shapes.front(), "pose");
-        const Json at = member_of(pose, "position");
-        const Json turn = member_of(pose, "orientation");
+        const Json& pose = member_of(shapes.front(), "pose");
+        const Json& at = member_of(pose, "position");
+        const Json& turn = member_of(pose, "orientation");
         const double angle = 2 * std::atan2(number_of(turn, "z"), number_of(turn, "w"));
         writer_.pose(key->second, static_cast<float>(number_of(at, "x")),
                      static_cast<float>(number_of(at, "y")), static_cast<float>(angle));

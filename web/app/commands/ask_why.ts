@@ -22,9 +22,10 @@ export async function askWhy(
 
 /** The same of an event; in a recording of several robots, of the one on whose bus it was. */
 export function askWhyEvent(studio: Studio, { name, source }: Happening): void {
-  const [robot = ''] = source.split('/');
-  const is = studio.past.trace?.robots.includes(robot);
-  void askWhy(studio, 'event', name, is ? robot : undefined);
+  const robot = studio.past.trace?.robots.find(
+    (one) => source === one || source.startsWith(`${one}/`),
+  );
+  void askWhy(studio, 'event', name, robot);
 }
 
 /** Shows where it is asked when something was decided. */

@@ -233,7 +233,7 @@ std::optional<Problem> Desk::refusal(const Clients::Member& member, const Reques
 std::optional<Problem> Desk::lateness(const Clients::Member& member, const Request& request,
                                       Time now) const {
     if (request.type->kind != CommandKind::Act) return std::nullopt;
-    if (overtaken_) return Problem{"failed", "it was stopped before it ran", ""};
+    if (overtaken_) return Problem{"failed", kStoppedBefore, ""};
     if (request.stops.value_or(member.stops) < member.stops) {
         return Problem{"failed",
                        request.name +

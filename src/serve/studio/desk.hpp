@@ -26,6 +26,9 @@
 
 namespace vagus::serve {
 
+// The answer to what was asked for before a Stop, and would have run behind it.
+constexpr const char* kStoppedBefore = "it was stopped before it ran";
+
 constexpr size_t kRoomBytes = 256 * 1024;  // unsent to a page, above which it gets nothing new
 // Sent to a page, and perhaps still on its way: above which it gets nothing new. On a line of
 // 50 kB/s, whose buffers hold much more, it sees what was a second and a half ago, not a minute.

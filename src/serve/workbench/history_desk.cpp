@@ -110,8 +110,10 @@ void HistoryDesk::declare() {
                            {"lines", run.lines},
                            {"refused", run.refused},
                            {"plan", run.has_plan}};
-            if (!run.robots.empty()) opened["robots"] = run.robots;
-            if (!run.robots.empty()) opened["robot"] = run.robot;
+            if (!run.robots.empty()) {
+                opened["robots"] = run.robots;
+                opened["robot"] = run.robot;
+            }
             if (!run.scene.is_null()) opened["scene"] = run.scene;
             call.done(std::move(opened));
         });

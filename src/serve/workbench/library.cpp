@@ -77,12 +77,6 @@ std::string content_of(const fs::path& folder, const session::ProjectFile& proje
     return nodes == 1 ? "Script · 1 node" : fmt::format("Scripts · {} nodes", nodes);
 }
 
-bool same_bytes(const fs::path& one, const fs::path& other) {
-    const auto a = read_file(one.string());
-    const auto b = read_file(other.string());
-    return a.ok() && b.ok() && a.value() == b.value();
-}
-
 }  // namespace
 
 fs::path user_data_folder(const std::string& given) {
@@ -186,8 +180,7 @@ Result<std::string> Library::copy_of_example(const std::string& id, bool again) 
     }
     fs::path latest;
     for (size_t number = 1; number <= kCopiesMax; ++number) {
-        const fs::path copy =
-            places_.data / "projects" / (number == 1 ? id : fmt::format("{}-{}", id, number));
+        const fs::path copy = places_.data / "projects" / numbered(id, number);
         if (!fs::exists(copy, failed)) {
             if (again && !latest.empty()) return (latest / id).string();
             TRY(copy_example(id, copy));
@@ -242,7 +235,7 @@ Result<std::string> Library::make_project(const std::string& name, const std::st
 Result<std::string> Library::make_robot_project(const std::string& target) {
     std::error_code failed;
     for (size_t number = 1; number <= kCopiesMax; ++number) {
-        const std::string name = number == 1 ? "robot" : fmt::format("robot-{}", number);
+        const std::string name = numbered("robot", number);
         const fs::path there = places_.data / "projects" / name;
         if (fs::exists(there, failed)) {
             // The one that was made for this robot before.

@@ -18,13 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool same_content(const fs::path& one, std::string_view bytes) {
-    std::error_code failed;
-    if (fs::file_size(one, failed) != bytes.size() || failed) return false;
-    const auto there = MappedFile::open(one.string());
-    return there.ok() && there.value().bytes() == bytes;
-}
-
 std::string project_file_of(const std::string& name, const record::RunFile& run,
                             const mcap::Reader& reader) {
     Json project = {{"format", "vagus-project/1"},
@@ -74,16 +67,29 @@ Status make_project(const fs::path& folder, const fs::path& recording, std::stri
 
 }  // namespace
 
+std::string numbered(const std::string& name, size_t number) {
+    return number == 1 ? name : fmt::format("{}-{}", name, number);
+}
+
+bool same_bytes(const fs::path& one, const fs::path& other) {
+    std::error_code failed;
+    const uintmax_t size = fs::file_size(one, failed);
+    if (failed || fs::file_size(other, failed) != size || failed) return false;
+    if (size == 0) return true;
+    const auto a = MappedFile::open(one.string());
+    const auto b = MappedFile::open(other.string());
+    return a.ok() && b.ok() && a.value().bytes() == b.value().bytes();
+}
+
 Result<RecordedProject> project_of_recording(const fs::path& recording, const fs::path& projects) {
     const MappedFile file = TRY(MappedFile::open(recording.string()));
     const std::string name = recording.filename().string();
     const std::string stem = recording.stem().string();
     std::error_code failed;
     for (size_t number = 1; number <= kCopiesMax; ++number) {
-        const fs::path folder =
-            projects / (number == 1 ? stem : fmt::format("{}-{}", stem, number));
+        const fs::path folder = projects / numbered(stem, number);
         RecordedProject made{.folder = folder.string(), .recording = name};
-        if (same_content(folder / name, file.bytes())) return made;
+        if (same_bytes(folder / name, recording)) return made;
         if (fs::exists(folder, failed)) continue;
         fs::create_directories(folder, failed);
         const Status written = make_project(folder, recording, file.bytes());

@@ -19,8 +19,6 @@ namespace vagus::serve {
 namespace {
 
 constexpr size_t kNotAgainMax = 1000;  // bytes, as in the protocol
-// Reading a recording takes a while: what was to follow does not run behind a Stop.
-constexpr const char* kStoppedBefore = "it was stopped before it ran";
 
 // Why a run that is shown has no recording.
 std::string nothing_to_ask(bool on_bus, bool serves) {
@@ -293,8 +291,7 @@ Result<std::string> Workbench::new_test(const std::string& plan, const std::stri
     const std::string stem =
         plan.ends_with(kPlanEnding) ? plan.substr(0, plan.size() - kPlanEnding.size()) : plan;
     for (size_t i = 1; i <= kTestNamesMax; ++i) {
-        const std::string number = i == 1 ? "" : fmt::format("-{}", i);
-        const std::string path = stem + number + std::string(trial::kTestEnding);
+        const std::string path = numbered(stem, i) + std::string(trial::kTestEnding);
         if (files_.exists(path)) continue;
         TRY(files_.make(path, text));
         return path;

@@ -243,7 +243,6 @@ void Workbench::stop(const Call& call, life::Cause cause) {
     live();
 }
 
-// What was asked for before it is not done after it, wherever it is on its way.
 void Workbench::somebody_stops(uint32_t member) {
     ++stops_;
     stopped_();

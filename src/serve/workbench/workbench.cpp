@@ -153,20 +153,27 @@ Json Workbench::studio_document() const {
 // ---- what is open ----
 
 void Workbench::declare_project_commands() {
-    const auto open_for = [this](const Call& call, const Result<std::string>& path) {
-        if (!path.ok()) return call.fail(path.error());
+    const auto enter_for = [this](const Call& call, const Result<OpenedProject>& project) {
+        if (!project.ok()) return call.fail(project.error());
         const auto then = [this, call] {
             if (!project_) return call.fail("unavailable", "the project was closed meanwhile");
             call.done({{"path", project_->folder}});
         };
-        const Status opened = open(path.value(), now_, then, who_asks(call));
-        if (!opened.ok()) call.fail(opened.error());
+        leave_for(project.value(), then, who_asks(call));
+    };
+    const auto open_for = [enter_for](const Call& call, const Result<std::string>& path) {
+        enter_for(call, path.ok() ? open_path(path.value()) : path.error());
     };
     desk_.command("project.example", [this, open_for](const Call& call) {
         open_for(call, library_.copy_of_example(call.in["id"]));
     });
-    desk_.command("project.open", [open_for](const Call& call) {
-        open_for(call, Result<std::string>(call.in["path"].get<std::string>()));
+    desk_.command("project.open", [this, enter_for](const Call& call) {
+        const std::string path = call.in["path"];
+        if (!is_recording_file(path)) return enter_for(call, open_path(path));
+        // It is read and copied first, which may take seconds.
+        worked<Result<OpenedProject>>(
+            worker_.poster(), [this, path] { return project_at(path); },
+            [call, enter_for](const Result<OpenedProject>& project) { enter_for(call, project); });
     });
     desk_.command("project.new", [this, open_for](const Call& call) {
         open_for(call, library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]));
@@ -234,15 +241,20 @@ Json Workbench::list_folder(const std::string& path) const {
 Status Workbench::open(const std::string& path, Time now, std::function<void()> then,
                        const std::string& by) {
     now_ = now;
-    OpenedProject project = TRY(project_at(path));
+    leave_for(TRY(project_at(path)), std::move(then), by);
+    return Status::done();
+}
+
+void Workbench::leave_for(OpenedProject project, std::function<void()> then,
+                          const std::string& by) {
     leave({by, life::Why::Project}, [this, project = std::move(project), then = std::move(then)] {
         forget_project();
         enter(project);
         then();
     });
-    return Status::done();
 }
 
+// Also on the worker's thread: of what is here it uses only places that stay as they are.
 Result<OpenedProject> Workbench::project_at(const std::string& path) const {
     if (!is_recording_file(path)) return open_path(path);
     const RecordedProject made = TRY(library_.project_of_recording(path));

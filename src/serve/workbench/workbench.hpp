@@ -162,9 +162,11 @@ public:
     // Also what was to start later.
     void stop_for(const std::string& by);
 
+    // Stop was pressed by the client with that number, or by nobody's page (0): what was asked for
+    // before is not done after it.
+    void somebody_stops(uint32_t member);
     // If anything runs, or was sent that can move a node: the plan ends, and all nodes stop. Until
     // that is over, or waited for no longer, is_stopping().
-    void somebody_stops(uint32_t member);
     void end_by(const std::string& by, life::Why why);
     bool is_stopping() const { return life_.is_stopping(); }
 
@@ -179,6 +181,7 @@ private:
     void declare_project_commands();
     void declare_kept_commands();
     Result<OpenedProject> project_at(const std::string& path) const;
+    void leave_for(OpenedProject project, std::function<void()> then, const std::string& by);
     void enter(OpenedProject project);
     void forget_recording();
     void forget_project();

@@ -161,10 +161,15 @@ export class Connection {
     socket?.close();
   }
 
-  send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
+  /** `due`: the deadline() of the key press, if something was waited for since. */
+  send<C extends CommandName>(
+    command: C,
+    input: Commands[C]['in'],
+    due?: number,
+  ): Promise<Commands[C]['out']> {
     const id = this.takeId();
     const act = commandTable[command].kind === 'act';
-    const until = act ? this.deadline() : undefined;
+    const until = act ? (due ?? this.deadline()) : undefined;
     const stops = act ? this.stops : undefined;
     const text = JSON.stringify({ id, do: command, in: input, until, stops });
     return new Promise((resolve, reject) => {
@@ -205,7 +210,8 @@ export class Connection {
     };
   }
 
-  private deadline(): number | undefined {
+  /** Until when the server may do what is asked for now, in its time; it has not told it yet: undefined. */
+  deadline(): number | undefined {
     // What lay unread for a while makes the server's clock seem slow, never fast.
     return this.ahead.length ? Math.max(...this.ahead) + this.clock() + limits.act_ms : undefined;
   }

@@ -8,7 +8,8 @@ const settle = () => new Promise((done) => setTimeout(done));
 
 function begin() {
   const world = new TestWorld();
-  const connection = new Connection(world, { token: 't0ken', client: 'tab', now: () => 0 });
+  const time = { own: 0 };
+  const connection = new Connection(world, { token: 't0ken', client: 'tab', now: () => time.own });
   connection.start();
   const stopping = new Stopping(connection, world);
   const orders = new Orders(connection, stopping);
@@ -19,7 +20,7 @@ function begin() {
       sent.push(name);
       return Promise.resolve(name);
     });
-  return { world, connection, stopping, orders, sent, ask };
+  return { world, time, connection, stopping, orders, sent, ask };
 }
 
 function later() {
@@ -38,6 +39,20 @@ test('what is asked for while something waits is sent behind it', async () => {
   texts.done();
   expect([await run, await pause]).toEqual(['run', 'pause']);
   expect(sent).toEqual(['run', 'pause']);
+});
+
+test('what has waited is due when it was due at the key press', async () => {
+  const { world, time, connection, orders } = begin();
+  world.say({ ping: 1, now: 10_000 });
+  const texts = later();
+  const run = orders.ask(texts.ready, (_, due) => {
+    void connection.send('run.start', {}, due);
+    return Promise.resolve();
+  });
+  time.own = 2500;
+  texts.done();
+  await run;
+  expect(world.last.sent.at(-1)).toMatchObject({ do: 'run.start', until: 13_000 });
 });
 
 test('an answer that takes long holds nothing up', async () => {

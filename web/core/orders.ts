@@ -1,6 +1,7 @@
 // What starts, pauses and steps a robot is sent in the order in which it was asked for, although some
 // of it waits first, for texts to be sent and checked. None of it outlives a Stop or the connection:
-// nobody expects a robot to start after Stop was pressed, or minutes later.
+// nobody expects a robot to start after Stop was pressed, or minutes later. The deadline of a command
+// is that of the key press, however long it waited here.
 
 import { answers, type Connection } from './connection';
 import type { Stopping } from './stopping';
@@ -9,7 +10,10 @@ export class Orders {
   private round = new Round();
   private before: Promise<unknown> = Promise.resolve();
 
-  constructor(connection: Connection, stopping: Stopping) {
+  constructor(
+    private readonly connection: Connection,
+    stopping: Stopping,
+  ) {
     stopping.pressed.on(() => this.drop(''));
     // What this page has sent by then carries the Stops that it knew of: the server judges that.
     connection.stopped.on(() => this.drop('Not done: somebody else pressed Stop meanwhile.'));
@@ -19,12 +23,16 @@ export class Orders {
   }
 
   /**
-   * Sends once what was asked for before has been sent and `ready` is there; gives what `send` gives,
-   * or null if Stop was pressed meanwhile. Throws if somebody else pressed it or the connection was
+   * Sends once what was asked for before has been sent and `ready` is there, with the deadline of now;
+   * gives what `send` gives, or null if Stop was pressed meanwhile. Throws if somebody else pressed it or the connection was
    * lost meanwhile, and what `ready` and `send` throw.
    */
-  async ask<T, R>(ready: Promise<T>, send: (prepared: T) => Promise<R>): Promise<R | null> {
-    const sent = this.sendInTurn(this.round, this.before, ready, send);
+  async ask<T, R>(
+    ready: Promise<T>,
+    send: (prepared: T, due: number | undefined) => Promise<R>,
+  ): Promise<R | null> {
+    const due = this.connection.deadline();
+    const sent = this.sendInTurn(this.round, this.before, ready, (prepared) => send(prepared, due));
     this.before = Promise.allSettled([this.before, sent]);
     return (await sent).answer;
   }

@@ -161,8 +161,13 @@ export class Studio {
     return this.number !== null && this.topics.get('studio', {})?.driver === this.number;
   }
 
-  send<C extends CommandName>(command: C, input: Commands[C]['in']): Promise<Commands[C]['out']> {
-    return this.connection.send(command, input);
+  /** `due`: what inTurn() has told. */
+  send<C extends CommandName>(
+    command: C,
+    input: Commands[C]['in'],
+    due?: number,
+  ): Promise<Commands[C]['out']> {
+    return this.connection.send(command, input, due);
   }
 
   /**
@@ -180,9 +185,13 @@ export class Studio {
 
   /**
    * For what starts, pauses and steps a robot: sent once `ready` is there, and in the order in which it
-   * was asked for. Null, and not sent, if Stop was pressed meanwhile.
+   * was asked for. Null, and not sent, if Stop was pressed meanwhile. `due` goes with what is sent: the
+   * time since the key press counts, not that since `ready`.
    */
-  inTurn<T, R>(ready: Promise<T>, send: (prepared: T) => Promise<R>): Promise<R | null> {
+  inTurn<T, R>(
+    ready: Promise<T>,
+    send: (prepared: T, due: number | undefined) => Promise<R>,
+  ): Promise<R | null> {
     return this.orders.ask(ready, send);
   }
 
@@ -191,7 +200,7 @@ export class Studio {
     command: C,
     input: Commands[C]['in'],
   ): Promise<Commands[C]['out'] | null> {
-    return this.inTurn(Promise.resolve(), () => this.send(command, input));
+    return this.inTurn(Promise.resolve(), (_, due) => this.send(command, input, due));
   }
 
   /** Sends what nobody waits for; a failure is shown as a toast. */

@@ -9,8 +9,8 @@ import { drives } from './looks';
 
 const titles = text.commands;
 
-/** A check that takes longer is not waited for. */
-const kCheckedWithinMs = 3000;
+/** A check that takes longer is not waited for: what F5 sends then comes in time yet (limits.act_ms). */
+const kCheckedWithinMs = 2000;
 
 /** What helps where no edit of the text does: in a drawing. */
 export interface FindingAct {

@@ -162,9 +162,9 @@ export async function orderNodes(
   nodes: readonly NodeId[],
 ): Promise<void> {
   const ready: Promise<unknown> = act === 'load' ? studio.documents.flushAll() : Promise.resolve();
-  const answers = await studio.inTurn(ready, () =>
+  const answers = await studio.inTurn(ready, (_, due) =>
     Promise.all(
-      (nodes.length > 0 ? nodes : [0]).map((node) => studio.send(`node.${act}`, { node })),
+      (nodes.length > 0 ? nodes : [0]).map((node) => studio.send(`node.${act}`, { node }, due)),
     ),
   );
   if (answers === null) return;
@@ -196,8 +196,8 @@ async function step(studio: Studio): Promise<void> {
 }
 
 async function load(studio: Studio, node: number): Promise<void> {
-  const answer = await studio.inTurn(studio.documents.flushAll(), () =>
-    studio.send('node.load', { node }),
+  const answer = await studio.inTurn(studio.documents.flushAll(), (_, due) =>
+    studio.send('node.load', { node }, due),
   );
   if (answer === null) return;
   const { loaded, failed } = answer;

@@ -18,13 +18,16 @@ export async function runRobot(studio: Studio): Promise<void> {
   const { doc } = studio.window.getState();
   note(studio, null);
   // What was typed last is checked before it is judged.
-  await studio.inTurn(freshFindings(studio), (findings) => runChecked(studio, doc, findings));
+  await studio.inTurn(freshFindings(studio), (findings, due) =>
+    runChecked(studio, doc, findings, due),
+  );
 }
 
 async function runChecked(
   studio: Studio,
   doc: Doc | null,
   findings: readonly Finding[],
+  due: number | undefined,
 ): Promise<void> {
   const meant = meantNow(studio);
   const plan = studio.topics.get('plan', {});
@@ -35,8 +38,8 @@ async function runChecked(
   const begins = order.command === 'plan.start' || (plan?.state !== 'running' && !held);
   if (meant !== undefined && broken > 0 && begins)
     return note(studio, doc, words.notStarted(planName(meant), broken, stillRuns(studio)), [meant]);
-  if (order.doc === undefined) await studio.send('run.start', {});
-  else await studio.send('plan.start', { doc: order.doc });
+  if (order.doc === undefined) await studio.send('run.start', {}, due);
+  else await studio.send('plan.start', { doc: order.doc }, due);
   if (doc !== null && isPlan(doc) && meant === doc) rememberPlan(studio, doc);
   if (meant !== undefined && broken > 0)
     note(studio, doc, words.asStarted(planName(meant), broken), [meant]);

@@ -40,8 +40,8 @@ export function planCommands(studio: Studio): Command[] {
       enabled: () => may() && !goes() && planToStart(studio) !== undefined,
       async run() {
         const doc = planToStart(studio);
-        const started = await studio.inTurn(studio.documents.flushAll(), () =>
-          studio.send('plan.start', doc === undefined ? {} : { doc }),
+        const started = await studio.inTurn(studio.documents.flushAll(), (_, due) =>
+          studio.send('plan.start', doc === undefined ? {} : { doc }, due),
         );
         if (started !== null) rememberPlan(studio, doc);
       },

@@ -111,8 +111,8 @@ async function start(
       isOther && value !== undefined ? [[name, value]] : [],
     ),
   );
-  const started = await studio.inTurn(studio.documents.flushAll(), () =>
-    studio.send('plan.start', { doc, from, set }),
+  const started = await studio.inTurn(studio.documents.flushAll(), (_, due) =>
+    studio.send('plan.start', { doc, from, set }, due),
   );
   if (started !== null) rememberPlan(studio, doc);
 }

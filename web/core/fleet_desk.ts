@@ -118,9 +118,10 @@ export class FleetDesk {
   ): Promise<boolean> {
     const chosen = robots.length === 0 ? {} : { robots: [...robots] };
     const words = { ...chosen, steps: steps.trim(), without: [...without] };
+    const due = this.studio.connection.deadline();
     this.deployWhy = await whyNot(
       // What was typed just now is a change that the server does not know yet.
-      this.studio.documents.flushAll().then(() => this.studio.send('fleet.deploy', words)),
+      this.studio.documents.flushAll().then(() => this.studio.send('fleet.deploy', words, due)),
     );
     this.dismissed = null;
     this.changed.emit();

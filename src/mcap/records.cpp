@@ -1,13 +1,11 @@
 #include "mcap/records.hpp"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 namespace vagus::mcap {
 
 uint32_t crc32(std::string_view bytes, uint32_t before) {
-    // zlib counts in 32 bits, and asks for bytes of another sign.
-    const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
-    return static_cast<uint32_t>(::crc32_z(before, data, bytes.size()));
+    return libdeflate_crc32(before, bytes.data(), bytes.size());
 }
 
 std::string content_of(const Schema& schema) {

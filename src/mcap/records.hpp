@@ -129,7 +129,7 @@ private:
     bool bad_ = false;
 };
 
-// CRC-32 of zlib, as the format asks for.
+// The CRC-32 of zlib, as the format asks for.
 uint32_t crc32(std::string_view bytes, uint32_t before = 0);
 
 // The content of these records, and back; the length of a record stands before it.

@@ -3,6 +3,8 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace vagus::mcap {
 
@@ -18,6 +20,31 @@ Put begin_record(std::string& to, Opcode opcode, size_t size) {
 void append_record(std::string& to, Opcode opcode, std::string_view content) {
     begin_record(to, opcode, content.size()).bytes(content);
 }
+
+// What stands before the data of a message, as one piece: a run has a thousand messages a second.
+class MessageHead {
+public:
+    MessageHead(uint16_t channel, uint32_t sequence, uint64_t log_time, uint64_t data_bytes) {
+        put(static_cast<uint8_t>(Opcode::Message));
+        put(kContent + data_bytes);
+        put(channel);
+        put(sequence);
+        put(log_time);
+        put(log_time);  // published then
+    }
+    std::string_view bytes() const { return {bytes_.data(), bytes_.size()}; }
+
+private:
+    static constexpr uint64_t kContent = 2 + 4 + 8 + 8;
+    template <class Number>
+    void put(Number number) {
+        std::memcpy(bytes_.data() + size_, &number, sizeof number);
+        size_ += sizeof number;
+    }
+
+    std::array<char, kRecordHeadBytes + kContent> bytes_;
+    size_t size_ = 0;
+};
 
 }  // namespace
 
@@ -87,10 +114,8 @@ void Writer::write(uint16_t channel, uint64_t log_time, std::string_view data) {
     chunk_from_ = first ? log_time : std::min(chunk_from_, log_time);
     chunk_to_ = first ? log_time : std::max(chunk_to_, log_time);
     chunk_index_[channel].emplace_back(log_time, chunk_.size());
-    constexpr size_t kMessageHead = 2 + 4 + 8 + 8;
-    Put put(chunk_);
-    put.u8(static_cast<uint8_t>(Opcode::Message)).u64(kMessageHead + data.size());
-    put.u16(channel).u32(counts_[channel - 1u]++).u64(log_time).u64(log_time).bytes(data);
+    const MessageHead head(channel, counts_[channel - 1u]++, log_time, data.size());
+    chunk_.append(head.bytes()).append(data);
     if (chunk_.size() >= kChunkBytes) write_chunk();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "base/json.hpp"
@@ -57,7 +58,11 @@ void append_words(std::string& to, std::span<const int16_t> words) {
     char* const end = to.data() + to.size();
     *at++ = '[';
     for (const int16_t word : words) {
-        at = std::to_chars(at, end, word).ptr;
+        if (word >= 0 && word <= 9) {  // most are 0
+            *at++ = static_cast<char>('0' + word);
+        } else {
+            at = std::to_chars(at, end, word).ptr;
+        }
         *at++ = ',';
     }
     if (!words.empty()) --at;
@@ -139,6 +144,10 @@ std::optional<ToldNode> read_node(std::string_view data) {
 RecordedVariable::RecordedVariable(std::string_view name, uint16_t address_of, uint16_t size_of)
     : key(json_quote(name) + ':'), address(address_of), size(size_of) {}
 
+void sort_by_address(RecordedVariables& variables) {
+    std::ranges::stable_sort(variables, {}, &RecordedVariable::address);
+}
+
 namespace {
 
 bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
@@ -147,12 +156,30 @@ bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
 
 }  // namespace
 
+// Four words at a time: nodes have hundreds, of which few change.
 WordRange changed_words(std::span<const int16_t> before, std::span<const int16_t> now) {
-    const auto first = std::ranges::mismatch(before, now).in1;
-    auto last = before.end();
-    for (auto other = now.end(); last != first && last[-1] == other[-1]; --last) --other;
-    return {static_cast<size_t>(first - before.begin()),
-            static_cast<size_t>(last - before.begin())};
+    constexpr size_t kMany = 4;
+    const auto same = [&](size_t at, size_t words) {
+        return std::memcmp(&before[at], &now[at], words * sizeof before[at]) == 0;
+    };
+    size_t begin = 0;
+    size_t end = before.size();
+    while (end - begin >= kMany && same(begin, kMany)) begin += kMany;
+    while (begin < end && same(begin, 1)) ++begin;
+    while (end - begin >= kMany && same(end - kMany, kMany)) end -= kMany;
+    while (begin < end && same(end - 1, 1)) --end;
+    return {begin, end};
+}
+
+std::span<const RecordedVariable> touched(std::span<const RecordedVariable> variables,
+                                          WordRange words) {
+    const auto first = std::ranges::partition_point(variables, [&](const RecordedVariable& one) {
+        return size_t{one.address} + one.size <= words.begin;
+    });
+    const auto last =
+        std::partition_point(first, variables.end(),
+                             [&](const RecordedVariable& one) { return one.address < words.end; });
+    return {first, last};
 }
 
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,

@@ -1,7 +1,7 @@
 #include "sim/frame_numbers.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <utility>
 
 namespace vagus::sim {
@@ -13,21 +13,33 @@ constexpr size_t kNewestMin = 256;  // places; a power of two, as all their numb
 
 }  // namespace
 
-// FNV-1a of 64 bits: two frames that are on their way at once and differ do not share it.
+// FNV-1a with eight bytes at a time, whose upper half is mixed into the lower one: two frames that
+// are on their way at once and differ do not share it.
 uint64_t FrameNumbers::key_of(const FrameOnBus& one) {
     constexpr uint64_t kPrime = 0x100000001b3u;
-    std::array<uint8_t, wire::kFrameMax> bytes;
-    const uint16_t size = wire::encode(one.frame, bytes.data());
-    uint64_t key = (0xcbf29ce484222325u ^ one.bus) * kPrime;
-    for (uint16_t i = 0; i < size; ++i) key = (key ^ bytes[i]) * kPrime;
+    constexpr int kUpperBits = 32;
+    uint64_t key = 0xcbf29ce484222325u;
+    const auto mix = [&key](uint64_t bytes) {
+        key = (key ^ bytes) * kPrime;
+        key ^= key >> kUpperBits;
+    };
+    const wire::Frame& frame = one.frame;
+    mix(uint64_t{one.bus} << 32 | uint64_t{frame.source} << 16 | frame.type);
+    mix(frame.size);
+    for (size_t at = 0; at < frame.size;) {
+        uint64_t bytes = 0;
+        const size_t count = std::min(sizeof bytes, frame.size - at);
+        std::memcpy(&bytes, frame.payload + at, count);
+        mix(bytes);
+        at += count;
+    }
     return key == kNoFrame ? 1 : key;
 }
 
 // ---- the newest frame of each key: open addressing, the next place where one is taken ----
 
 size_t FrameNumbers::home_of(uint64_t key) const {
-    constexpr int kUpperBits = 32;  // FNV mixes upwards
-    return (key ^ key >> kUpperBits) & (newest_.size() - 1);
+    return key & (newest_.size() - 1);
 }
 
 // Where its newest frame is, or would be.

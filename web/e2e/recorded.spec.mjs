@@ -53,6 +53,9 @@ test(
     const why = page.getByRole('tabpanel', { name: 'Why' });
     await reads(why, /the actor second began[^]*the actor first ended with Done/);
     await look(studio, 'the recording and its why');
+    await page.reload();
+    await seen(page.getByText('Showing monday.mcap.'));
+    await seen(page.getByText('Everything shows 2.000 s.'));
     await press('Escape');
     await gone(page.getByText('Showing monday.mcap.'));
   },

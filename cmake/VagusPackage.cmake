@@ -12,7 +12,8 @@ add_custom_target(manual DEPENDS ${manual})
 install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program OPTIONAL)
 install(FILES completions/vagus.bash RENAME vagus DESTINATION share/bash-completion/completions COMPONENT program)
 install(FILES packaging/copyright README.md CHANGELOG.md SECURITY.md DESTINATION share/doc/vagus COMPONENT program)
-install(FILES docs/field.md docs/fleet.md docs/fleet-messages.md docs/large-worlds.md docs/studio.md docs/cli.md DESTINATION share/doc/vagus COMPONENT program)
+# As in the sources, so that the links from one page to another lead somewhere.
+install(DIRECTORY docs DESTINATION share/doc/vagus COMPONENT program)
 install(FILES packaging/vagus.service DESTINATION lib/systemd/system COMPONENT program)
 install(FILES packaging/vagus.sysusers RENAME vagus.conf DESTINATION lib/sysusers.d COMPONENT program)
 

@@ -55,9 +55,12 @@ class Package(unittest.TestCase):
     def test_it_holds_what_a_robot_needs_and_nothing_of_the_checkout(self):
         files = {path.relative_to(self.bare).as_posix() for path in self.bare.rglob("*") if path.is_file()}
         for path in ("usr/bin/vagus", "usr/share/vagus/examples/follow-wall/vagus.json", "usr/share/man/man1/vagus.1.gz",
-                     "usr/share/bash-completion/completions/vagus", "usr/share/doc/vagus/copyright", "usr/share/doc/vagus/field.md",
+                     "usr/share/bash-completion/completions/vagus", "usr/share/doc/vagus/copyright",
                      "usr/lib/systemd/system/vagus.service", "usr/lib/sysusers.d/vagus.conf"):
             self.assertIn(path, files)
+        pages = set(re.findall(r"\]\((docs/[^)#]+)", (self.bare / "usr/share/doc/vagus/README.md").read_text()))
+        self.assertGreaterEqual(pages, {"docs/field.md", "docs/recordings.md"})
+        self.assertEqual([page for page in sorted(pages) if f"usr/share/doc/vagus/{page}" not in files], [])
         if (ROOT / "web/dist/index.html").exists():
             self.assertIn("usr/share/vagus/pages/index.html", files)
         self.assertFalse([path for path in files if path.endswith((".hpp", ".a", ".cmake")) or "/.vagus/" in path or "__pycache__" in path])

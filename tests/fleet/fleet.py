@@ -1,7 +1,9 @@
 """Robots of a fleet: served simulated Thymios, a broker (Debian's mosquitto), and somebody who tells them what to do."""
 import json
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -50,7 +52,10 @@ class Case(unittest.TestCase):
 
     def init(self, *robots, folder=None):
         words = [word for robot in robots for word in ("--robot", robot)]
-        done = self.command("init", folder or self.broker_folder, "--port", self.port, "--web-port", free_port(), *words)
+        folder = folder or self.broker_folder
+        if not (folder / "mosquitto.conf").exists():
+            words += ["--port", self.port, "--web-port", free_port()]
+        done = self.command("init", folder, *words)
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def serve_broker(self, *arguments):
@@ -305,6 +310,49 @@ class Rights(Case):
         self.assertEqual((self.broker_folder / "r1.login").read_text(encoding="ascii"), before)
         users = [line.split(":")[0] for line in (self.broker_folder / "passwords").read_text(encoding="ascii").splitlines()]
         self.assertEqual(users, ["operator", "looker", "keeper", "r1", "r2"])
+
+    # The first init of many people comes before `apt-get install mosquitto`.
+    def test_logins_that_an_earlier_init_left_are_finished(self):
+        without = self.folder / "bin"
+        without.mkdir()
+        (without / "openssl").symlink_to(shutil.which("openssl"))
+        first = subprocess.run([str(word) for word in (VAGUS, "fleet", "init", self.broker_folder, "--port", self.port,
+                                                       "--web-port", free_port())],
+                               env={**os.environ, "PATH": str(without)}, capture_output=True, text=True, timeout=GIVE_UP_AFTER)
+        if first.returncode == 0:
+            self.skipTest("mosquitto_passwd is in /usr/sbin")
+        self.assertIn("mosquitto_passwd is not installed", first.stderr)
+        self.init()
+        self.serve_broker()
+        done = self.command(self.target, "list", *self.login("looker"))
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_a_further_host_is_in_the_certificate_after_another_init(self):
+        self.init("r1")
+        first = (self.broker_folder / "broker.crt").read_bytes()
+        self.init("r2")
+        self.assertEqual((self.broker_folder / "broker.crt").read_bytes(), first)
+        done = self.command("init", self.broker_folder, "--host", "127.0.0.2")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("broker.crt is new", done.stdout)
+        self.assertIn("start `vagus fleet serve` again", done.stdout)
+        self.serve_broker()
+        target = f"mqtts://127.0.0.2:{self.port}/{FLEET}"
+        self.assertEqual(self.command(target, "list", *self.login("looker")).returncode, 0)
+
+    def test_init_refuses_what_it_would_not_do(self):
+        self.init()
+        other = self.command("init", self.broker_folder, "--port", 1)
+        self.assertEqual(other.returncode, 2, other.stdout)
+        self.assertIn(f"--port 1: the broker of {self.broker_folder} has the ports {self.port}, ", other.stdout)
+        wrong = self.command("init", self.broker_folder, "--host", "a,DNS:b")
+        self.assertEqual(wrong.returncode, 2, wrong.stdout)
+        self.assertIn('--host "a,DNS:b": expected the name of a computer', wrong.stdout)
+
+    def test_a_name_and_a_group_are_not_given_together(self):
+        done = self.command("mqtt://localhost:1/lab", "stop", "r1", "--group", "red")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("found a name and a --group", done.stdout)
 
     def test_init_says_what_it_cannot_do(self):
         def refused(status, *words):

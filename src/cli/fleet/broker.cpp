@@ -19,6 +19,7 @@
 #include "fleet/limits.hpp"
 #include "fleet/operator.hpp"
 #include "fleet/robot_names.hpp"
+#include "fleet/target.hpp"
 #include "fleet/topic.hpp"
 #include "keeper/keeper.hpp"
 #include "net/end_signal.hpp"
@@ -35,6 +36,12 @@ constexpr int kLookEveryMs = 200;                            // whether children
 constexpr auto kKeeperAgainAfter = std::chrono::seconds(1);  // one that cannot run is no flood
 constexpr size_t kPasswordBytes = 16;
 constexpr int kCertificateDays = 3650;
+constexpr uint16_t kPort = 8883;
+constexpr uint16_t kWebPort = 8884;
+constexpr size_t kHostBytesMax = 253;  // of a name in DNS
+constexpr const char* kHostBytes =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_:";
+constexpr std::string_view kNamesKey = "subjectAltName=";  // in broker.ext
 // For one client: what is retained of the most robots, three messages of each; the records that a
 // keeper finds are fewer.
 constexpr size_t kQueuedMax = 3 * fleet::kRobotsMax;
@@ -81,12 +88,26 @@ std::string user_of_this_process() {
     return user == nullptr ? "mosquitto" : user->pw_name;
 }
 
+// "listener 8883" of a configuration that a person may have changed.
+std::vector<std::string> ports_in(const std::string& configuration) {
+    std::vector<std::string> ports;
+    for (std::string_view line : split(configuration, '\n')) {
+        constexpr std::string_view kListener = "listener ";
+        if (!line.starts_with(kListener)) continue;
+        line.remove_prefix(kListener.size());
+        ports.emplace_back(line.substr(0, line.find(' ')));
+    }
+    return ports;
+}
+
 class Maker {
 public:
     explicit Maker(const BrokerOptions& options)
         : options_(options), folder_(fs::absolute(options.folder).lexically_normal()) {}
 
-    Status make() {
+    // What the person should know about it; empty: nothing.
+    Result<std::string> make() {
+        TRY(check_ports());
         std::error_code failed;
         fs::create_directories(folder_ / "data", failed);
         if (failed) {
@@ -95,10 +116,16 @@ public:
         }
         chmod(folder_.c_str(), kFolderForOwner);
         TRY(make_authority());
-        TRY(make_certificate());
+        const bool is_new = TRY(make_certificate());
         TRY(write("access", kAccess));
         TRY(write("mosquitto.conf", configuration()));
-        return make_users();
+        TRY(make_users());
+        if (!is_new) return std::string();
+        const std::string names = TRY(certified_names());
+        return fmt::format(
+            "{}: broker.crt is new, for the names {}; start `vagus fleet serve` "
+            "again.\n",
+            options_.folder, names);
     }
 
 private:
@@ -126,27 +153,87 @@ private:
                         "keyUsage=critical,keyCertSign,cRLSign"});
     }
 
-    Status make_certificate() {
-        if (has("broker.crt") && has("broker.key")) return Status::done();
-        TRY(openssl({"req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
-                     "-keyout", path("broker.key"), "-out", path("broker.csr"), "-subj",
-                     "/CN=Broker of a fleet of Vagus"}));
-        TRY(write_file(path("broker.ext"), "subjectAltName=" + alternative_names() + "\n"));
-        return openssl({"x509", "-req", "-in", path("broker.csr"), "-CA", path("ca.crt"), "-CAkey",
-                        path("ca.key"), "-CAcreateserial", "-days",
-                        std::to_string(kCertificateDays), "-extfile", path("broker.ext"), "-out",
-                        path("broker.crt")});
+    // The configuration stays as it is, so a port that it does not have would be for nothing.
+    Status check_ports() const {
+        if (!has("mosquitto.conf")) return Status::done();
+        const std::string configured = TRY(read_file(path("mosquitto.conf")));
+        const std::vector<std::string> ports = ports_in(configured);
+        const std::pair<const char*, std::optional<uint16_t>> asked[] = {
+            {"--port", options_.port}, {"--web-port", options_.web_port}};
+        for (const auto& [option, port] : asked) {
+            if (!port || std::ranges::count(ports, std::to_string(*port)) > 0) continue;
+            return Error{Code::BadInput,
+                         fmt::format("{} {}: the broker of {} has the ports {}; change its "
+                                     "mosquitto.conf, or make another folder",
+                                     option, *port, options_.folder, fmt::join(ports, ", "))};
+        }
+        return Status::done();
     }
 
-    std::string alternative_names() const {
-        std::string names = "DNS:localhost,IP:127.0.0.1,IP:::1";
-        std::vector<std::string> hosts = options_.hosts;
-        hosts.push_back(serve::host_name());
+    // One that is there stays, unless it lacks a name that is asked for: then true, and it is
+    // another one with all of them.
+    Result<bool> make_certificate() {
+        const bool is_there = has("broker.crt") && has("broker.key");
+        if (!is_there) {
+            TRY(openssl({"genpkey", "-algorithm", "EC", "-pkeyopt", "ec_paramgen_curve:P-256",
+                         "-out", path("broker.key")}));
+            std::vector<std::string> hosts = options_.hosts;
+            hosts.push_back(serve::host_name());
+            TRY(certify(alternative_names("DNS:localhost,IP:127.0.0.1,IP:::1", hosts)));
+            return false;
+        }
+        if (options_.hosts.empty()) return false;
+        const std::string before = has("broker.ext") ? TRY(certified_names()) : "";
+        const std::string names = alternative_names(before, options_.hosts);
+        if (names == before) return false;
+        if (before.empty() || !is_signed_here()) {
+            return Error{Code::Refused,
+                         fmt::format("--host {}: {}/broker.crt was not made by `vagus fleet init`, "
+                                     "and is kept; whoever signed it can add the name",
+                                     options_.hosts.back(), options_.folder)};
+        }
+        TRY(certify(names));
+        return true;
+    }
+
+    bool is_signed_here() const {
+        return run_to_end({"openssl", "verify", "-no_check_time", "-CAfile", path("ca.crt"),
+                           path("broker.crt")})
+            .ok();
+    }
+
+    Result<std::string> certified_names() const {
+        std::string names = TRY(read_file(path("broker.ext")));
+        if (names.starts_with(kNamesKey)) names.erase(0, kNamesKey.size());
+        names.erase(names.find_last_not_of(" \n") + 1);
+        return names;
+    }
+
+    // The certificate that is there is replaced as a whole, once there is another one.
+    Status certify(const std::string& names) {
+        TRY(openssl({"req", "-new", "-key", path("broker.key"), "-out", path("broker.csr"), "-subj",
+                     "/CN=Broker of a fleet of Vagus"}));
+        TRY(write_file(path("broker.ext.new"), fmt::format("{}{}\n", kNamesKey, names)));
+        TRY(openssl({"x509", "-req", "-in", path("broker.csr"), "-CA", path("ca.crt"), "-CAkey",
+                     path("ca.key"), "-CAcreateserial", "-days", std::to_string(kCertificateDays),
+                     "-extfile", path("broker.ext.new"), "-out", path("broker.crt.new")}));
+        std::error_code failed;
+        fs::rename(path("broker.crt.new"), path("broker.crt"), failed);
+        if (!failed) fs::rename(path("broker.ext.new"), path("broker.ext"), failed);
+        if (!failed) return Status::done();
+        return Error{Code::Unavailable, fmt::format("{}: cannot be written: {}", path("broker.crt"),
+                                                    failed.message())};
+    }
+
+    // `names`, and those of `hosts` that it lacks.
+    static std::string alternative_names(std::string names, std::vector<std::string> hosts) {
         for (const std::string& host : hosts) {
-            if (host.empty() || host == "localhost") continue;
+            if (host.empty()) continue;
             const bool address =
                 host.find_first_not_of("0123456789.") == host.npos || host.find(':') != host.npos;
-            names += fmt::format(",{}:{}", address ? "IP" : "DNS", host);
+            const std::string name = fmt::format("{}:{}", address ? "IP" : "DNS", host);
+            const auto known = split(names, ',');
+            if (std::ranges::count(known, name) == 0) names += "," + name;
         }
         return names;
     }
@@ -178,31 +265,55 @@ private:
                    user_of_this_process(), path("passwords"), path("access"), path("data"),
                    fleet::kPayloadBytesMax + 2 * fleet::kTopicBytesMax, kQueuedMax,
                    kQueuedBytesMax) +
-               listener(options_.port, "mqtt") + listener(options_.web_port, "websockets");
+               listener(options_.port.value_or(kPort), "mqtt") +
+               listener(options_.web_port.value_or(kWebPort), "websockets");
     }
 
-    // Each new user has a file NAME.login with the user and a password; the broker's own file has
-    // only what cannot be turned back.
+    // Each user has a file NAME.login with the user and a password; the broker's own file has only
+    // what cannot be turned back. A user that it lacks gets its line, also where an earlier `init`
+    // ended before it came to that.
     Status make_users() {
         std::string fresh;
         std::vector<std::string> users(std::begin(kUsers), std::end(kUsers));
         for (const std::string& robot : options_.robots) users.push_back(fleet::escape(robot));
+        std::string before = has("passwords") ? TRY(read_file(path("passwords"))) : "";
         for (const std::string& user : users) {
-            if (has(user + ".login")) continue;
-            const std::string password = hex_of(serve::random_bytes(kPasswordBytes));
-            TRY(write(user + ".login", user + "\n" + password + "\n"));
-            fresh += user + ":" + password + "\n";
+            const bool has_login = has(user + ".login");
+            if (has_login && knows(before, user)) continue;
+            if (!has_login) {
+                const std::string password = hex_of(serve::random_bytes(kPasswordBytes));
+                TRY(write(user + ".login", user + "\n" + password + "\n"));
+            }
+            const std::string file = path(user + ".login");
+            const std::string lines = TRY(read_file(file));
+            const fleet::Login login = TRY(fleet::read_login(lines, file));
+            before = without(before, user);
+            fresh += login.user + ":" + login.password + "\n";
         }
         if (fresh.empty()) return Status::done();
-        TRY(write("passwords.new", fresh));
-        TRY(run_to_end({"mosquitto_passwd", "-U", path("passwords.new")}));
-        const std::string hashed = TRY(read_file(path("passwords.new")));
-        const std::string before = has("passwords") ? TRY(read_file(path("passwords"))) : "";
         std::error_code failed;
-        fs::remove(path("passwords"), failed);
-        TRY(write("passwords", before + hashed));
         fs::remove(path("passwords.new"), failed);
-        return Status::done();
+        TRY(write("passwords.new", fresh));
+        const Status hashed = run_to_end({"mosquitto_passwd", "-U", path("passwords.new")});
+        if (hashed.ok()) {
+            const std::string lines = TRY(read_file(path("passwords.new")));
+            fs::remove(path("passwords"), failed);
+            TRY(write("passwords", before + lines));
+        }
+        fs::remove(path("passwords.new"), failed);
+        return hashed;
+    }
+
+    static bool knows(const std::string& passwords, const std::string& user) {
+        return ("\n" + passwords).find("\n" + user + ":") != std::string::npos;
+    }
+    // The lines of all others.
+    static std::string without(const std::string& passwords, const std::string& user) {
+        std::string others;
+        for (const std::string_view line : split(passwords, '\n')) {
+            if (!line.empty() && !line.starts_with(user + ":")) others += fmt::format("{}\n", line);
+        }
+        return others;
     }
 
     const BrokerOptions& options_;
@@ -213,6 +324,16 @@ Status check(const BrokerOptions& options) {
     if (options.robots.size() > kFleetUsersMax) {
         return Error{Code::Limit, fmt::format("--robot: {} at a time at most, found {}",
                                               kFleetUsersMax, options.robots.size())};
+    }
+    for (const std::string& host : options.hosts) {
+        if (!host.empty() && host.size() <= kHostBytesMax &&
+            host.find_first_not_of(kHostBytes) == std::string::npos) {
+            continue;
+        }
+        return Error{Code::BadInput,
+                     fmt::format("--host \"{}\": expected the name of a computer, or an address, "
+                                 "as broker.local or 192.168.1.7",
+                                 visible(host))};
     }
     for (const std::string& robot : options.robots) {
         if (robot.find("..") != std::string::npos) {
@@ -230,25 +351,16 @@ Status check(const BrokerOptions& options) {
 }
 
 int init(const BrokerOptions& options) {
-    const Status made = make_broker(options);
+    const auto made = make_broker(options);
     if (!made.ok()) {
         return complain(made.error(),
                         made.error().code == Code::BadInput ? kExitUsage : kExitFailed);
     }
-    print(
-        fmt::format("{0}: ca.crt is for everybody, NAME.login for the one of that name.\n"
-                    "Next: vagus fleet serve {1}\n",
-                    options.folder, shell_word(options.folder)));
+    print(made.value() +
+          fmt::format("{0}: ca.crt is for everybody, NAME.login for the one of that name.\n"
+                      "Next: vagus fleet serve {1}\n",
+                      options.folder, shell_word(options.folder)));
     return kExitDone;
-}
-
-// "listener 8883" of a configuration that a person may have changed.
-std::string port_in(const std::string& configuration) {
-    for (const std::string_view line : split(configuration, '\n')) {
-        constexpr std::string_view kListener = "listener ";
-        if (line.starts_with(kListener)) return std::string(line.substr(kListener.size()));
-    }
-    return "1883";
 }
 
 // `vagus fleet TARGET keep` for one fleet of this broker, in a process of its own, so that a
@@ -313,7 +425,7 @@ Status check_fleets(const std::vector<std::string>& fleets) {
 
 }  // namespace
 
-Status make_broker(const BrokerOptions& options) {
+Result<std::string> make_broker(const BrokerOptions& options) {
     TRY(check(options));
     return Maker(options).make();
 }
@@ -332,7 +444,8 @@ int serve_broker(const std::string& folder, const std::vector<std::string>& flee
     net::watch_for_end();
     auto broker = Companion::start({"mosquitto", "-c", file});
     if (!broker.ok()) return complain(broker.error());
-    const std::string port = port_in(configuration.value());
+    const std::vector<std::string> ports = ports_in(configuration.value());
+    const std::string port = ports.empty() ? "1883" : ports.front();
     print("fleet mqtts://localhost:" + port + "\n");
     std::vector<KeeperChild> keepers;
     for (const std::string& fleet : fleets) keepers.emplace_back(folder, port, fleet);
@@ -364,7 +477,7 @@ void add_broker_verbs(CLI::App& fleet, int& exit_code) {
         "each for\n"
         "the operator (may command robots), the looker (may watch and stop them), the keeper and "
         "every\n"
-        "robot. What is already there is kept: run init again to add another --robot.\n"
+        "robot. What is already there is kept: run init again to add another --robot or --host.\n"
         "Example:\n  vagus fleet init broker --host broker.local --robot r1 --robot r2");
     verb->callback([options, &exit_code] {
         for (const std::string& word : std::exchange(options->robots, {})) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,15 @@ constexpr size_t kFleetUsersMax = 1000;  // that one `init` adds
 
 struct BrokerOptions {
     std::string folder;
-    uint16_t port = 8883;
-    uint16_t web_port = 8884;         // WebSockets
-    std::vector<std::string> hosts;   // further names of this computer
-    std::vector<std::string> robots;  // that get a login
+    std::optional<uint16_t> port;      // 8883
+    std::optional<uint16_t> web_port;  // 8884; WebSockets
+    std::vector<std::string> hosts;    // further names of this computer
+    std::vector<std::string> robots;   // that get a login
 };
 
-// What is there already stays as it is; robots that are new get a login.
-Status make_broker(const BrokerOptions& options);
+// What is there already stays as it is; robots that are new get a login, and names that are new a
+// certificate. Gives a line for the person; empty: there is nothing to say.
+Result<std::string> make_broker(const BrokerOptions& options);
 
 constexpr size_t kKeptFleetsMax = 16;  // fleets of one `serve`
 

@@ -310,6 +310,10 @@ void acts(CLI::App* verb, const SharedCall& call, int& exit_code, Act act,
           fleet::Operator::Options wants = {}) {
     verb->callback([call, &exit_code, act = std::move(act), wants = std::move(wants)] {
         need_target(*call);
+        if (!call->robot.empty() && !call->group.empty()) {
+            throw CLI::ValidationError("ROBOT",
+                                       "found a name and a --group; expected one of the two");
+        }
         exit_code = run(*call, wants, act);
     });
 }

@@ -61,8 +61,8 @@ std::string sentence_of_tls(const LinkOptions& options) {
                "authority that signed it, as --tls-ca ca.crt";
     }
     return fmt::format(
-        "TLS failed: the broker's certificate is not signed by {}, or is not for "
-        "the name {}",
+        "TLS failed: the broker's certificate is not signed by {}, is not for the name {}, or is "
+        "not valid on the date of this computer's clock",
         options.ca, options.target.host);
 }
 
@@ -221,13 +221,20 @@ private:
         return false;
     }
     std::string why_of(int result) const {
-        return result == MOSQ_ERR_TLS ? sentence_of_tls(link_.options()) : sentence_of(result);
+        if (result == MOSQ_ERR_TLS) return sentence_of_tls(link_.options());
+        const bool maybe_tls = result == MOSQ_ERR_CONN_LOST && !connected_;
+        return sentence_of(result) + (maybe_tls && !link_.options().target.tls
+                                          ? " Does the broker want TLS? Then write mqtts://"
+                                          : "");
     }
 
     static void on_connect(mosquitto*, void* self, int code, int, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
         if (code != 0) {
             session.refused_ = fmt::format("refused: {}", mosquitto_reason_string(code));
+            if (code == MQTT_RC_NOT_AUTHORIZED || code == MQTT_RC_BAD_USERNAME_OR_PASSWORD) {
+                session.refused_ += "; is the login one of this broker?";
+            }
             return;
         }
         session.connected_ = true;

@@ -11,6 +11,7 @@
 #include "embed/loaded_plan.hpp"
 #include "embed/plan_versions.hpp"
 #include "embed/prepared_run.hpp"
+#include "record/damage.hpp"
 #include "record/past_bus.hpp"
 #include "record/past_run.hpp"
 #include "session/toolboxes.hpp"
@@ -28,7 +29,7 @@ public:
     }
 
     Status read(const mcap::Reader& reader) {
-        cut_ = !reader.is_complete();
+        cut_ = !is_whole(reader);
         aesl::Project project;
         if (!about_.project.empty()) {
             const std::string text = TRY(read_file(folder_.path_of(about_.project)));

@@ -254,7 +254,7 @@ Status run_through(Lanes& lanes, Stream a, Stream b, Time end) {
 // what waited to be written, of the last instant and before.
 Time told_until(const mcap::Reader& reader, const Survey& survey) {
     const Time end = survey.end - *survey.start;
-    return reader.is_complete() ? end : end - kOutOfOrder;
+    return is_whole(reader) ? end : end - kOutOfOrder;
 }
 
 ComparedLane compare_ends(const Survey& a, const Survey& b) {
@@ -344,7 +344,7 @@ Result<Comparison> compare_runs(const mcap::Reader& a, const mcap::Reader& b, co
     const Time end = std::min(told_until(a, of_a), told_until(b, of_b));
     TRY(run_through(lanes, {a, Side::A, made.start_a}, {b, Side::B, made.start_b}, end));
     made.lanes = lanes.result();
-    if (a.is_complete() && b.is_complete()) made.lanes.push_back(compare_ends(of_a, of_b));
+    if (is_whole(a) && is_whole(b)) made.lanes.push_back(compare_ends(of_a, of_b));
     put_first_what_differs(made.lanes);
     return made;
 }

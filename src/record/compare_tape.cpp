@@ -72,7 +72,7 @@ CompareTape::CompareTape(const mcap::Reader& reader, std::set<std::string> only,
     : reader_(reader), cursor_(reader), only_(std::move(only)), until_(until) {}
 
 bool CompareTape::counts(const std::string& name) const {
-    if (name == kRunTopic || name.starts_with(kCameraTopics)) return false;
+    if (name == kRunTopic || name == kCutTopic || name.starts_with(kCameraTopics)) return false;
     return only_.empty() || only_.contains(name);
 }
 
@@ -107,7 +107,7 @@ void CompareTape::put(uint16_t topic, Time at, std::string_view data) {
     std::optional<Recorded> recorded = take(topic);
     // One that is not there was dropped, or the recording was cut off: that is no difference.
     const bool dropped = topics_[topic - 1u].may_be_dropped;
-    if (!recorded && (dropped || !reader_.is_complete() || cursor_.trouble())) return;
+    if (!recorded && (dropped || !is_whole(reader_) || cursor_.trouble())) return;
     if (recorded && dropped && recorded->at > at) {
         ahead_[topics_[topic - 1u].name].push_front(std::move(*recorded));
         return;

@@ -8,6 +8,7 @@
 #include "base/seconds.hpp"
 #include "embed/loaded_plan.hpp"
 #include "record/compare_tape.hpp"
+#include "record/damage.hpp"
 #include "record/past_run.hpp"
 
 namespace vagus::record {
@@ -41,7 +42,7 @@ void follow(Rerun& rerun, LogPoints& points) {
 
 Result<Time> log_run(const mcap::Reader& reader, const LogRun& wanted) {
     RerunOptions how;
-    if (!reader.is_complete()) how.until = end_of(reader);
+    if (!is_whole(reader)) how.until = end_of(reader);
     const Time until = how.until.value_or(Time::max());
     const std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, how));
     const auto wishes = TRY(wanted.wishes(*rerun));

@@ -12,6 +12,7 @@
 #include "embed/plan_versions.hpp"
 #include "embed/prepared_run.hpp"
 #include "record/bus_rerun.hpp"
+#include "record/damage.hpp"
 #include "record/past_run.hpp"
 #include "record/plan_recording.hpp"
 #include "record/world_rerun.hpp"
@@ -20,7 +21,6 @@
 #include "session/toolboxes.hpp"
 
 namespace vagus::record {
-
 namespace {
 
 std::string last_part(const std::string& path) {
@@ -591,7 +591,7 @@ Result<std::unique_ptr<Rerun>> Rerun::open(const mcap::Reader& reader,
     made->inputs_ = std::move(inputs);
     made->until_ = options.until;
     made->end_ = end;
-    made->cut_ = !reader.is_complete() && !options.from;
+    made->cut_ = !is_whole(reader) && !options.from;
     made->another_way_ = options.from.has_value();
     TRY(made->prepare());
     return made;

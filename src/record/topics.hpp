@@ -14,6 +14,7 @@ namespace vagus::record {
 
 constexpr std::string_view kRunTopic = "/vagus/run";
 constexpr std::string_view kInputTopic = "/vagus/input";
+constexpr std::string_view kCutTopic = "/vagus/cut";  // where a repaired recording was cut off
 constexpr std::string_view kCheckTopic = "/vagus/check";
 constexpr std::string_view kTraceTopic = "/plan/trace";
 constexpr std::string_view kStatesTopic = "/plan/states";

@@ -4,6 +4,7 @@
 
 #include "base/json.hpp"
 #include "base/seconds.hpp"
+#include "record/damage.hpp"
 #include "record/past_bus.hpp"
 #include "record/past_run.hpp"
 #include "record/why_walk.hpp"
@@ -63,7 +64,7 @@ Result<Question> read_question(const std::vector<std::string>& words) {
 
 Result<Chain> why(const mcap::Reader& reader, const Question& question, std::optional<Time> at) {
     // Of a run that goes on there is what was written by now.
-    if (!reader.is_complete()) at = std::min(at.value_or(Time::max()), end_of(reader));
+    if (!is_whole(reader)) at = std::min(at.value_or(Time::max()), end_of(reader));
     std::unique_ptr<Rerun> rerun = TRY(Rerun::open(reader, {.until = at}));
     std::optional<Result<Chain>> answer;
     std::vector<TiedLink> ties;

@@ -6,6 +6,7 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "record/compare_runs.hpp"
+#include "record/damage.hpp"
 
 namespace vagus::cli {
 
@@ -37,10 +38,8 @@ int compare(const CompareOptions& options) {
     const auto b = open(options.b);
     if (!b.ok()) return complain(b.error(), kExitUsage);
     for (const auto* const one : {&a, &b}) {
-        if (one->value().reader.is_complete()) continue;
-        complain(one->value().reader.name() +
-                 ": has no end (the run was killed, or the file is cut off); it is compared up to "
-                 "its last whole chunk");
+        if (record::is_whole(one->value().reader)) continue;
+        complain(one->value().reader.name() + ": " + std::string(record::kHasNoEnd));
     }
     const auto found = record::compare_runs(a.value().reader, b.value().reader, align.value());
     if (!found.ok()) return complain(found.error(), kExitUsage);

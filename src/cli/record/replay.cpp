@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 
@@ -16,9 +17,11 @@
 #include "mcap/writer.hpp"
 #include "record/both_tapes.hpp"
 #include "record/compare_tape.hpp"
+#include "record/damage.hpp"
 #include "record/file_tape.hpp"
 #include "record/log_run.hpp"
 #include "record/replay.hpp"
+#include "record/topics.hpp"
 
 namespace vagus::cli {
 
@@ -50,7 +53,7 @@ Status check_other_file(const std::string& option, const std::string& to,
 
 // ---- repair ----
 
-// The same messages and attachments, with an end.
+// The same messages and attachments, with an end, and a mark where those of the run are missing.
 int repair(const mcap::Reader& reader, const std::string& to) {
     auto file = record::create_recording(to);
     if (!file.ok()) return complain(file.error(), kExitUsage);
@@ -66,8 +69,14 @@ int repair(const mcap::Reader& reader, const std::string& to) {
     }
     mcap::Cursor cursor(reader);
     uint64_t count = 0;
+    uint64_t last = 0;
     for (; const auto message = cursor.next(); ++count) {
         writer.write(channels[message->channel], message->log_time, message->data);
+        last = std::max(last, message->log_time);
+    }
+    const bool is_marked = reader.find(record::kCutTopic) != nullptr;
+    if (!is_marked && (!record::is_whole(reader) || cursor.trouble())) {
+        record::mark_as_cut(writer, last);
     }
     const Status ended = writer.end();
     if (!ended.ok()) return complain(ended.error());
@@ -344,10 +353,8 @@ int replay(const ReplayOptions& options) {
     if (!asked.ok()) return complain(asked.error(), kExitUsage);
     const auto points = log_points(options, *rerun.value());
     if (!points.ok()) return complain(points.error(), kExitUsage);
-    if (!reader.value().is_complete()) {
-        complain(options.file +
-                 ": has no end (the run was killed, or the file is cut off); it is "
-                 "compared up to its last whole chunk");
+    if (!record::is_whole(reader.value())) {
+        complain(options.file + ": " + std::string(record::kHasNoEnd));
     }
     return run_again(options, reader.value(), how.value(), *rerun.value(), *points.value());
 }

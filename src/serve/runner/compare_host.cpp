@@ -7,6 +7,7 @@
 #include "base/file.hpp"
 #include "base/seconds.hpp"
 #include "record/compare_runs.hpp"
+#include "record/damage.hpp"
 #include "record/run_tracks.hpp"
 #include "serve/edit/text_places.hpp"
 #include "serve/json.hpp"
@@ -59,7 +60,7 @@ Json of_run(const mcap::Reader& reader, const record::RunTracks& tracks, Time st
     for (const record::RobotWay& one : tracks.ways) ways.push_back(of_way(one));
     return {{"start", seconds_of(start)},
             {"end", seconds_of(tracks.end)},
-            {"complete", reader.is_complete()},
+            {"complete", record::is_whole(reader)},
             {"actors", std::move(actors)},
             {"events", std::move(events)},
             {"ways", std::move(ways)},

@@ -2,6 +2,7 @@
 #include "base/file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -286,10 +287,20 @@ MappedFile::~MappedFile() {
 }
 
 Result<GrowingFile> GrowingFile::create(const std::string& path) {
-    const int descriptor =
-        ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor < 0) return failure(path, "written");
-    return GrowingFile(path, descriptor);
+    GrowingFile file(path, descriptor);
+    // Bytes of two writers would be mixed up, and both files lost. It goes with the descriptor, so
+    // a writer that was killed holds nothing. A file system without locks refuses nobody.
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+        return Error{Code::Refused, path +
+                                        ": another program is writing it; name another file, or "
+                                        "wait until that one has ended"};
+    }
+    struct stat found = {};
+    const bool is_regular = ::fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
+    if (is_regular && ::ftruncate(descriptor, 0) != 0) return failure(path, "written");
+    return file;
 }
 
 GrowingFile::GrowingFile(GrowingFile&& other) noexcept

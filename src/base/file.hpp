@@ -35,7 +35,8 @@ private:
 // does, but another whose name was typed in the wrong place.
 bool is_file_of_another_kind(const std::string& path, std::string_view begins);
 
-// A new file that grows. What was in a file of that name is gone.
+// A new file that grows. What was in a file of that name is gone. Refused while another one writes
+// it, in this process or elsewhere.
 class GrowingFile {
 public:
     static Result<GrowingFile> create(const std::string& path);

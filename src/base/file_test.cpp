@@ -47,6 +47,23 @@ TEST_F(FileTest, AFileThatGrowsIsReadAsItIsMapped) {
     EXPECT_FALSE(GrowingFile::create(path("no/x")).ok());
 }
 
+// The second would mix its bytes into those of the first, and neither could be read again.
+TEST_F(FileTest, AFileThatGrowsHasOneWriter) {
+    {
+        auto first = GrowingFile::create(path("x"));
+        ASSERT_TRUE(first.ok());
+        EXPECT_TRUE(first.value().append("one").ok());
+        const auto second = GrowingFile::create(path("x"));
+        ASSERT_FALSE(second.ok());
+        EXPECT_EQ(second.error().what,
+                  path("x") +
+                      ": another program is writing it; name another file, or wait until "
+                      "that one has ended");
+        EXPECT_EQ(read_file(path("x")).value(), "one");
+    }
+    EXPECT_TRUE(GrowingFile::create(path("x")).ok());
+}
+
 TEST_F(FileTest, WhatIsCutOffAMappedFileReadsAsZeros) {
     constexpr size_t kBytes = 3u << 20;  // more than the system reads ahead
     ASSERT_TRUE(write_file(path("x"), std::string(kBytes, 'x')).ok());

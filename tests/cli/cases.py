@@ -369,6 +369,8 @@ class Cli(unittest.TestCase):
         for words in [("sim", self.world, "--headless", "--speed", "max", "--trace", "/dev/full"),
                       ("plan", "run", plan, "--clock", "virtual", "--trace", "/dev/full"),
                       ("plan", "run", plan, "--clock", "virtual", "--world", self.world, "--trace-all", "/dev/full"),
+                      ("sim", self.world, "--headless", "--speed", "max", "--duration", 1, "--record", "/dev/full"),
+                      ("plan", "run", plan, "--clock", "virtual", "--record", "/dev/full"),
                       ("compile", self.script, "-o", "/dev/full")]:
             with self.subTest(words=words):
                 said = self.run_vagus(*words, status=1).stderr

@@ -179,7 +179,7 @@ int Prompt::run() {
         (void)debugger_.post(run::Abort{}).ok();  // refused only where thousands wait already
         runner_.join();
     }
-    return aborts ? run_.prepared().exit_status(ended_) : exit_code_;
+    return aborts ? run_.exit_status(ended_) : exit_code_;
 }
 
 void Prompt::start_run() {
@@ -210,7 +210,7 @@ void Prompt::take(const run::Report& report) {
     } else if (const auto* over = std::get_if<run::RunOver>(&report)) {
         print(text_of(*over));
         if (runner_.joinable()) runner_.join();
-        exit_code_ = run_.prepared().exit_status(ended_);
+        exit_code_ = run_.exit_status(ended_);
         start_run();
     }
 }

@@ -82,7 +82,7 @@ int show_run(TerminalRun& run, const PlanRunOptions& options) {
     }
     const run::Ended ended = run.run();
     if (!ended.message.empty()) complain(ended.message);
-    return run.prepared().exit_status(ended);
+    return run.exit_status(ended);
 }
 
 int run_once(const PlanRunOptions& options) {
@@ -204,7 +204,8 @@ void add_run(CLI::App& plan, int& exit_code) {
     CLI::App* verb = plan.add_subcommand("run", "runs a plan");
     verb->footer(
         "Exit codes: 0 the plan ended well, 3 it was interrupted, 4 it failed, 5 --max-time came, "
-        "2 it is not valid.\n\nBeside a world, on a terminal, it shows the plan and the world; "
+        "2 it is not valid,\n1 it ended well, but its trace or its recording could not be "
+        "written.\n\nBeside a world, on a terminal, it shows the plan and the world; "
         "keys are listed at the bottom. At the\nend the view stays until a key. Otherwise it "
         "prints a "
         "line "

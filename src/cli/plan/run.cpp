@@ -112,6 +112,7 @@ void TerminalRun::end_recording() {
     if (!recording_) return;
     const Status written = recording_->end();
     if (!written.ok()) complain(written.error());
+    all_recorded_ = written.ok();
     complain_left_out(record_, recording_->dropped(), "variables, poses and cameras");
     recording_.reset();
 }
@@ -127,6 +128,11 @@ run::Ended TerminalRun::run() {
     if (ended.ok()) return ended.value();
     complain(ended.error());
     return {.result = plan::PlanResult::Error, .message = {}};
+}
+
+int TerminalRun::exit_status(const run::Ended& ended) {
+    const int status = prepared_->exit_status(ended);
+    return status == kExitDone && !all_recorded_ ? kExitFailed : status;
 }
 
 void add_plan_file(CLI::App& verb, std::string& file) {

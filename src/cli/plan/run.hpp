@@ -57,6 +57,8 @@ public:
     // Can be called again: each is a run of its own. One that cannot begin has complained, and is
     // over with an error.
     run::Ended run();
+    // That of the plan; where it ended well, 1 if its trace or its recording could not be written.
+    int exit_status(const run::Ended& ended);
     // What --record named; empty: nothing was to be recorded. It has the first run.
     const std::string& record() const { return record_; }
     // Before run(); borrowed.
@@ -74,6 +76,7 @@ private:
     run::Debugger* debugger_ = nullptr;
     std::string record_;
     std::unique_ptr<record::PlanRecording> recording_;
+    bool all_recorded_ = true;
 };
 
 }  // namespace vagus::cli

@@ -252,7 +252,7 @@ void tell_summary(const session::SimSession& session, const Lines& tell) {
 int tell_end(TerminalRun& run, const run::Ended& ended, const Lines& tell) {
     if (run.prepared().world() != nullptr) tell_summary(run.prepared().world()->session(), tell);
     if (!ended.message.empty()) complain(ended.message);
-    return run.prepared().exit_status(ended);
+    return run.exit_status(ended);
 }
 
 }  // namespace

@@ -102,6 +102,7 @@ private:
     std::string notice_;
     LineSink trace_;
     std::unique_ptr<record::SimRecording> recording_;
+    bool all_recorded_ = true;  // none of its recordings ended because it could not be written
     Pace pace_;
     sim::WorldThreads threads_;
     bool running_ = false;  // run() has begun
@@ -195,6 +196,7 @@ void SimRun::end_recording() {
     if (!recording_) return;
     const Status written = recording_->end();
     if (!written.ok()) complain(written.error());
+    all_recorded_ = all_recorded_ && written.ok();
     complain_left_out(options_.record, recording_->dropped(), "variables, poses and cameras");
     recording_.reset();
 }
@@ -235,7 +237,7 @@ int SimRun::run() {
     pass_all();
     const Status traced = trace_.flush();
     if (!traced.ok()) return complain(traced.error());
-    return net::end_as_asked(robots_.has_failed() ? kExitFailed : kExitDone);
+    return net::end_as_asked(robots_.has_failed() || !all_recorded_ ? kExitFailed : kExitDone);
 }
 
 void SimRun::pass_all() {

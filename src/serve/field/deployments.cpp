@@ -52,8 +52,9 @@ const char* word_of(DeployOutcome::Result result) {
 
 Status Deployments::boot(bool start, Time now) {
     now_ = now;
-    versions_.tidy_up();
-    auto trial = versions_.trial();
+    const Status tidy = versions_.tidy_up();
+    if (!tidy.ok()) call_.log("warning", tidy.error().what);
+    auto trial = tidy.ok() ? versions_.trial() : std::nullopt;
     if (trial && ++trial->tries > kTrialBootsMax) {
         call_.log("error", fmt::format("version {} did not start at {} boots; version {} is in "
                                        "force again",
@@ -219,6 +220,7 @@ void Deployments::back(Done done) {
     done_ = std::move(done);
     stop_pressed_ = false;
     const uint32_t from = versions_.current();
+    if (const Status held = versions_.hold(); !held.ok()) return refuse(held.error().what);
     if (from == 0) return refuse("the folder as it was given is in force; nothing is before it");
     stop_for({.version = versions_.before(from), .back = from, .if_not = IfNot::Wait});
 }

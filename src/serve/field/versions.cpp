@@ -24,6 +24,7 @@ constexpr const char* kGone = "gone";
 constexpr const char* kTrial = "trial.json";
 constexpr const char* kList = "deployed.json";
 constexpr const char* kFiles = "files";
+constexpr const char* kLock = ".lock";  // behind the name of the folder
 
 Status outcome(const std::error_code& failed, const fs::path& path) {
     if (!failed) return Status::done();
@@ -60,16 +61,36 @@ fs::path Versions::place(uint32_t version) const {
     return root_ / std::to_string(version);
 }
 
-void Versions::tidy_up() {
-    forget_incoming();
+Status Versions::tidy_up() {
     std::error_code failed;
+    if (!fs::exists(root_, failed)) return Status::done();
+    TRY(hold());
+    forget_incoming();
     fs::remove(root_ / kNext, failed);
     fs::remove_all(root_ / kGone, failed);
     const auto begun = trial();
-    if (!begun || begun->version == current()) return;
+    if (!begun || begun->version == current()) return Status::done();
     // It was to be in force and never was.
     end_trial();
     remove(begun->version);
+    return Status::done();
+}
+
+Status Versions::hold() {
+    if (held_) return Status::done();
+    std::error_code failed;
+    fs::create_directories(root_.parent_path(), failed);
+    TRY(outcome(failed, root_.parent_path()));
+    auto lock = GrowingFile::create(root_.string() + kLock);
+    if (!lock.ok() && lock.error().code == Code::Refused) {
+        return Error{Code::Refused,
+                     fmt::format("{}: another robot that is served from this folder keeps its "
+                                 "versions in it; give each robot a copy of the project",
+                                 project_.string())};
+    }
+    if (!lock.ok()) return lock.error();
+    held_.emplace(std::move(lock.value()));
+    return Status::done();
 }
 
 uint32_t Versions::current() const {
@@ -113,6 +134,7 @@ uint32_t Versions::before(uint32_t version) const {
 // ---- on its way here ----
 
 Status Versions::begin() {
+    TRY(hold());
     forget_incoming();
     std::error_code failed;
     fs::create_directories(root_ / kIncoming / kFiles, failed);
@@ -147,6 +169,7 @@ Result<uint32_t> Versions::finish(Bundle bundle) {
 }
 
 void Versions::forget_incoming() {
+    if (!held_) return;  // it is of another server, or there is none
     std::error_code failed;
     fs::remove_all(root_ / kIncoming, failed);
 }

@@ -5,6 +5,7 @@
 //                             4/deployed.json, 4/files/…
 //                             current     link to 4; without it version 0 is in force
 //                             trial.json  current has not shown yet that it starts
+//     PROJECT/.vagus/versions.lock        open in the server that changes all this
 //
 // Each change of what is in force is one rename, and everything it leads to is on the disk before:
 // after a power cut at any moment it is the one or the other, whole.
@@ -16,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file.hpp"
 #include "base/result.hpp"
 #include "serve/workbench/bundle.hpp"
 
@@ -37,8 +39,11 @@ public:
     Versions(std::filesystem::path project, std::filesystem::path root)
         : project_(std::move(project)), root_(std::move(root)) {}
 
-    // Deletes what an interrupted deployment has left. Once, at the boot.
-    void tidy_up();
+    // Deletes what an interrupted deployment has left. Once, at the boot. The Error: see hold().
+    Status tidy_up();
+    // From here on, as long as this is there, no other server changes the versions of the folder;
+    // two of them would delete each other's. The Error says that another one does.
+    Status hold();
 
     uint32_t current() const;
     std::vector<uint32_t> all() const;  // without 0, the oldest first
@@ -71,6 +76,7 @@ private:
     std::filesystem::path place(uint32_t version) const;
 
     std::filesystem::path project_, root_;
+    std::optional<GrowingFile> held_;
 };
 
 }  // namespace vagus::serve

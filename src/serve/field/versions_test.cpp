@@ -74,9 +74,25 @@ TEST_F(VersionsTest, WhatWasInterruptedOnItsWayIsGoneAtTheNextBoot) {
     deploy("1");
     ASSERT_TRUE(versions.begin().ok());
     ASSERT_TRUE(versions.add("rover/vagus.json", "half").ok());
-    versions.tidy_up();
+    ASSERT_TRUE(versions.tidy_up().ok());
     EXPECT_FALSE(fs::exists(project / ".vagus/versions/incoming"));
     EXPECT_EQ(versions.current(), 1u);
+}
+
+// Two robots at one desk, served from one folder: each took the files of the other for its own.
+TEST_F(VersionsTest, OneServerChangesTheVersionsOfAFolder) {
+    ASSERT_TRUE(versions.begin().ok());
+    ASSERT_TRUE(versions.add("rover/vagus.json", "1").ok());
+    {
+        Versions second(project);
+        const std::string told = second.begin().error().what;
+        EXPECT_EQ(told, project.string() +
+                            ": another robot that is served from this folder keeps its versions "
+                            "in it; give each robot a copy of the project");
+        EXPECT_EQ(second.tidy_up().error().what, told);
+        second.forget_incoming();
+    }
+    EXPECT_EQ(versions.finish(bundle("1")).value(), 1u);
 }
 
 TEST_F(VersionsTest, WhatHasItsNumberAndWasNeverInForceIsGoneAtTheNextBoot) {
@@ -84,7 +100,7 @@ TEST_F(VersionsTest, WhatHasItsNumberAndWasNeverInForceIsGoneAtTheNextBoot) {
     ASSERT_TRUE(versions.begin().ok());
     ASSERT_TRUE(versions.add("rover/vagus.json", "2").ok());
     ASSERT_EQ(versions.finish(bundle("2")).value(), 2u);
-    versions.tidy_up();
+    ASSERT_TRUE(versions.tidy_up().ok());
     EXPECT_EQ(versions.all(), Numbers{1});
     EXPECT_FALSE(versions.trial().has_value());
 }
@@ -95,7 +111,7 @@ TEST_F(VersionsTest, ATrialOfWhatIsInForceOutlivesTheBoot) {
     ASSERT_TRUE(versions.add("rover/vagus.json", "2").ok());
     ASSERT_TRUE(versions.finish(bundle("2")).ok());
     ASSERT_TRUE(versions.put_in_force(2).ok());
-    versions.tidy_up();
+    ASSERT_TRUE(versions.tidy_up().ok());
     const auto trial = versions.trial();
     ASSERT_TRUE(trial.has_value());
     EXPECT_EQ(trial->version, 2u);

@@ -1,4 +1,5 @@
 """Another version for robots of a fleet, in steps: fetched, checked, started, and taken back."""
+import json
 import pathlib
 import sys
 import unittest
@@ -7,7 +8,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from fleet import AESL, Case, PART, SCRIPT  # noqa: E402
 import projects  # noqa: E402
-from harness import GIVE_UP_AFTER, vagus  # noqa: E402
+from harness import GIVE_UP_AFTER, vagus, wait_until  # noqa: E402
 from page import Refused, Studio  # noqa: E402
 
 
@@ -21,6 +22,11 @@ class Versions(Case):
         folder = self.folder / "version"
         projects.thymio(folder, script="", fleet={**PART, **more})
         projects.write(folder, "robot.aesl", AESL.format(script=script))
+        return folder
+
+    def name(self, folder, name):
+        file = folder / "vagus.json"
+        file.write_text(json.dumps({**json.loads(file.read_text(encoding="utf-8")), "name": name}), encoding="utf-8")
         return folder
 
 
@@ -51,6 +57,19 @@ class Rollout(Versions):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("2 of 2 robots: well", done.stdout)
         self.assertRegex(self.edition("r2"), r'r2: not done: .*edition')
+
+    def test_a_robot_says_the_name_of_the_project_that_it_runs(self):
+        self.two_robots()
+
+        def names():
+            lines = self.desk("list", "all", "--json").stdout.splitlines()
+            return [json.loads(line)["description"]["project"] for line in lines]
+
+        before = names()
+        self.deploy("all", "--project", self.name(self.version(), "Second exercise"))
+        wait_until("the name stayed", lambda: names() == ["Second exercise"] * 2)
+        self.desk("deploy", "all", "--rollback")
+        wait_until("the name did not come back", lambda: names() == before)
 
     def test_the_first_that_is_not_well_stops_it(self):
         self.two_robots()

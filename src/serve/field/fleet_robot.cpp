@@ -70,16 +70,17 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
                         .key = options.key,
                         .login = options.login};
     std::unique_ptr<FleetRobot> robot(
-        new FleetRobot(bench, std::move(member), std::move(link), std::move(talk), now));
+        new FleetRobot(bench, project, std::move(member), std::move(link), std::move(talk), now));
     robot->let_plans_ask(std::move(asks));
     return robot;
 }
 
-FleetRobot::FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
-                       Time now)
+FleetRobot::FleetRobot(Workbench& bench, const OpenedProject& project, fleet::MemberOptions options,
+                       LinkOptions link, Talk talk, Time now)
     : bench_(bench),
       talk_(std::move(talk)),
       project_(options.project),
+      said_(fleet::description_of(project.fleet, project.name, project.plan)),
       member_(options, now),
       tell_list_(options.project.tell),
       link_(std::move(link), talk_.wake),
@@ -145,7 +146,8 @@ FleetRobot::~FleetRobot() {
 }
 
 bool FleetRobot::is_of(const OpenedProject& project) const {
-    return project.fleet == project_;
+    return project.fleet == project_ &&
+           fleet::description_of(project.fleet, project.name, project.plan) == said_;
 }
 
 // One that is started again and again is not shown as running and stopped in turn.

@@ -34,7 +34,7 @@ public:
                                                     Talk talk, Time now);
     ~FleetRobot();
 
-    // Whether it joined for this project, as its file says now.
+    // Whether it joined for this project, and says of it what its file says now.
     bool is_of(const OpenedProject& project) const;
     void tick(Time now);
     // Why its program does not run; empty: it does, or it is not to. Shown as a fault.
@@ -48,8 +48,8 @@ public:
     Time next_tick() const { return std::min(member_.next_tick(), tell_list_.next()); }
 
 private:
-    FleetRobot(Workbench& bench, fleet::MemberOptions options, LinkOptions link, Talk talk,
-               Time now);
+    FleetRobot(Workbench& bench, const OpenedProject& project, fleet::MemberOptions options,
+               LinkOptions link, Talk talk, Time now);
     void let_plans_ask(talk::MemberOf member);
     fleet::Shown shown() const;
     void perform_all();
@@ -66,6 +66,7 @@ private:
     Workbench& bench_;
     const Talk talk_;
     const fleet::ProjectPart project_;
+    const fleet::Description said_;  // of the project, without what this program adds
     fleet::Member member_;
     fleet::TellList tell_list_;
     std::string refused_;

@@ -90,7 +90,8 @@ private:
         return Status::done();
     }
 
-    // Another version may send and hear something else: it joins again, as another instance.
+    // Another version may send and hear something else, or have another name: it joins again, as
+    // another instance.
     void tick_fleet(Time now) {
         if (!robot_) return;
         if (bench().project() && !robot_->is_of(*bench().project())) {

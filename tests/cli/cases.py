@@ -519,6 +519,14 @@ class Cli(unittest.TestCase):
         self.assertEqual(node["used"]["bytecode"], len(hexes))
         self.assertEqual(node["warnings"], [])
 
+    def test_compile_replaces_no_source(self):
+        for words in (["rover.aesl", "-o", "rover.aesl"], ["other.aesl", "-o", "./rover.aesl"]):
+            self.file("rover.aesl", ROVER)
+            self.file("other.aesl", ROVER)
+            said = self.run_vagus("compile", *words, status=2).stderr
+            self.assertIn("name another file for what is compiled", said)
+            self.assertEqual((self.folder / "rover.aesl").read_text(), ROVER)
+
     def test_compile_writes_object_files(self):
         self.file("rover.aesl", ROVER)
         self.run_vagus("compile", "rover.aesl", "--format", "abo", "-o", "rover.abo")

@@ -2,8 +2,11 @@
 // sentence [CODE].
 #include "aesl/compile.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "aesl/abo.hpp"
 #include "aesl/listing.hpp"
@@ -21,6 +24,10 @@
 
 namespace vagus::cli {
 namespace {
+
+// How names of files end that are never an output of this verb.
+constexpr std::string_view kNeverOutput[] = {
+    ".aesl", ".mcap", ".plan.json", ".world.json", ".toolbox.json", ".test.json", "vagus.json"};
 
 struct Options {
     std::string file;
@@ -177,7 +184,27 @@ int compile_all(const Options& options, const std::vector<Job>& jobs) {
     return kExitFailed;
 }
 
+// What a person has written, or a robot has done, is not replaced by what is compiled.
+Status check_out(const Options& options) {
+    std::error_code error;
+    const auto is_out = [&](const std::string& path) {
+        return std::filesystem::equivalent(options.out, path, error);
+    };
+    const bool is_read = is_out(options.file) || std::ranges::any_of(options.node_files, is_out);
+    const bool is_kept = std::filesystem::exists(options.out, error) &&
+                         std::ranges::any_of(kNeverOutput, [&](std::string_view end) {
+                             return options.out.ends_with(end);
+                         });
+    if (!is_read && !is_kept) return Status::done();
+    return Error{
+        Code::Refused,
+        fmt::format("-o {}: {}; name another file for what is compiled, as blink.hex", options.out,
+                    is_read ? "is read for this" : "is there already, and no such output")};
+}
+
 int run(const Options& options) {
+    const Status good = check_out(options);
+    if (!good.ok()) return complain(good.error(), kExitUsage);
     const auto text = read_file(options.file);
     if (!text.ok()) return complain(text.error(), kExitUsage);
     const auto file = session::read_script_file(text.value(), options.file);

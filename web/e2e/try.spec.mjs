@@ -2,7 +2,7 @@
 // raises. By keyboard alone, and by clicks in the drawing.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
@@ -178,6 +178,16 @@ test('what an actor gives is typed, and is in the test', asking, async (studio) 
   await seen(page.getByRole('tab', { name: /Ask\.test/, selected: true }));
   const kept = JSON.parse(readFileSync(join(place, 'Ask.test.json'), 'utf8'));
   assert.deepEqual(kept.answers.ask[0], { after: 1, state: 'Received', out: { arg0: 12 } });
+});
+
+test('a sub-plan that another program changes is tried as it is then', project, async (studio) => {
+  const { page, press, place } = studio;
+  await tries(studio);
+  await press('3');
+  await reads(bar(page), /sleep is active[^]*Done/);
+  const sleep = { template: 'Receive', in: { event: "'x'" }, states: { Received: '@terminate' } };
+  writeFileSync(join(place, 'Nap.plan.json'), text({ ...kNap, actors: { sleep } }));
+  await reads(bar(page), /sleep is active[^]*Received/);
 });
 
 test('an edited plan is tried as it is now', project, async (studio) => {

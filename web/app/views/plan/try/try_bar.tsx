@@ -20,7 +20,7 @@ export default function TryBar({ doc }: { doc: Doc }) {
 }
 
 function Bar({ trying, doc }: { trying: Trying; doc: Doc }) {
-  useTakenAgain(trying, doc);
+  useTakenAgain(trying);
   const frame = useKeyboard(trying);
   const { answer, trouble, way } = trying;
   return (

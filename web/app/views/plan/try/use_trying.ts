@@ -17,13 +17,18 @@ export function useTriedPlan(): Tried['plan'] | null {
   return trying.answer?.plan ?? null;
 }
 
-/** Takes the same way again when the plan is edited. */
-export function useTakenAgain(trying: Trying, doc: Doc): void {
-  const version = usePart('doc', { doc }, (is) => is?.version);
-  const before = useRef(version);
+/** Takes the same way again when the plan is edited, one of its sub-plans, or a toolbox. */
+export function useTakenAgain(trying: Trying): void {
+  const checked = usePart('findings', {}, (is) => is && versionsOf(is.versions));
+  const before = useRef(checked);
   useEffect(() => {
-    const isNews = before.current !== undefined && before.current !== version;
-    before.current = version;
+    const isNews = before.current !== undefined && before.current !== checked;
+    before.current = checked;
     if (isNews) void trying.again();
-  }, [trying, version]);
+  }, [trying, checked]);
+}
+
+/** Texts of plans and toolboxes, as one value; scripts have no part in it. */
+function versionsOf(versions: Readonly<Record<Doc, number>>): string {
+  return JSON.stringify(Object.entries(versions).filter(([doc]) => !doc.includes('#')));
 }

@@ -212,11 +212,13 @@ export const text = {
   whyNot: {
     noProject: 'Open a project first.',
     viewOnly: 'View only: request control first.',
+    away: 'The studio does not answer. Wait until it is back.',
     looksBack: 'You are looking back: press Esc to return to now.',
     notNow: 'Not possible now.',
     elsewhere: 'Click into the drawing first.',
     of: {
       'run.pause': 'Nothing is running.',
+      'tests.run': 'Open a test first (NAME.test.json).',
       'tests.stop': 'No tests are running.',
       'run.step': 'Nothing is paused. Pause first (F8).',
       'run.reset': 'Only a simulation can go back to its start.',
@@ -242,6 +244,9 @@ export const text = {
       'past.': 'Nothing has run yet.',
       'past.back': 'You are not looking back.',
       'past.continue': 'Look back into a run of the simulator first.',
+      'past.log': 'Put the caret on a line of a script first, after a run in the simulator.',
+      'past.decided': 'Only a run in the simulator can be asked.',
+      'fleet.': 'No fleet is open.',
       'past.stay': 'Look back into a run of the simulator first.',
       'past.later': 'You are not looking back.',
       'past.stepAfter': 'You are not looking back.',
@@ -793,7 +798,7 @@ export const text = {
   },
   overlay: {
     search: 'Type a command',
-    none: 'No command of that name.',
+    none: 'No command of that name. Some are listed only while a plan, a world or a script is shown.',
     close: 'Close',
   },
   close: 'Close',

@@ -93,6 +93,27 @@ test('the robot bumped: back, another threshold, and on from there', wall, async
   assert.ok(first >= at, `the runs part at ${first} s, not before ${at} s`);
 });
 
+test('while looking back nothing that changes the run is offered', wall, async (studio) => {
+  const { page, press, button } = studio;
+  await runTo(studio, 'findWallAngle');
+  await back(studio, 1);
+  const options = page.locator('.palette__item');
+  const why = async (/** @type {string} */ title) => {
+    await press('Control+k');
+    await page.getByRole('combobox', { name: 'Type a command' }).fill(title);
+    const said = await options.filter({ hasText: title }).first().innerText();
+    await press('Escape');
+    return said;
+  };
+  for (const title of ['Run all nodes', 'Upload to all nodes', 'Plan: on to the next actor'])
+    assert.match(await why(title), /You are looking back/);
+  for (const title of ['Stop all nodes', 'Stop the plan', 'Run all tests of the project'])
+    assert.doesNotMatch(await why(title), /You are looking back/);
+  assert.ok(await button('Upload').first().isDisabled());
+  await press('Alt+Shift+u');
+  await seen(page.getByText(/^Upload to the node: You are looking back/));
+});
+
 test('without its server no instant is claimed that is not shown', wall, async (studio) => {
   const { page, press, server } = studio;
   await runTo(studio, 'findWallAngle');

@@ -12,6 +12,11 @@ export function drives(studio: Studio): boolean {
   return studio.drives;
 }
 
+/** May change what runs: at an instant of the past nothing does. Stop is for now, always. */
+export function mayAct(studio: Studio): boolean {
+  return drives(studio) && studio.past.at === null;
+}
+
 /** May open another project: a robot that serves itself has one. */
 export function mayLeave(studio: Studio): boolean {
   return drives(studio) && !studio.topics.get('studio', {})?.serves;

@@ -1,19 +1,19 @@
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
+import { answers } from '../../core/connection';
 import { runStateOf } from '../../core/run_state';
 import { toast } from '../../core/window_state';
 import type { Failed, NodeId } from '../../protocol/messages';
 import { text } from '../text';
 import { runRobot } from './run_robot';
-import { clockOf, drives, projectOf, robotOf, shownNode } from './looks';
+import { clockOf, drives, mayAct, projectOf, robotOf, shownNode } from './looks';
 
 const titles = text.commands;
 const group = text.groups.run;
 
 /** Run, pause, step and stop: of the whole robot by keys, of one node by its tab. */
 export function runCommands(studio: Studio): Command[] {
-  // At an instant of the past nothing that runs is changed; Stop is for now, always.
-  const may = () => drives(studio) && projectOf(studio) !== null && studio.past.at === null;
+  const may = () => mayAct(studio) && projectOf(studio) !== null;
   const state = () => runStateOf(robotOf(studio), clockOf(studio), studio.topics.get('plan', {}));
   return [
     {
@@ -73,7 +73,7 @@ export function runCommands(studio: Studio): Command[] {
       id: 'driver.ask',
       title: titles['driver.ask'],
       group,
-      enabled: () => !drives(studio),
+      enabled: () => answers(studio.connection.link) && !drives(studio),
       run: async () => void (await studio.send('driver.ask', {})),
     },
   ];
@@ -81,19 +81,17 @@ export function runCommands(studio: Studio): Command[] {
 
 /** For the node whose script is looked at. */
 export function nodeCommands(studio: Studio): Command[] {
-  const has = () => drives(studio) && shownNode(studio) !== undefined;
-  const some = () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0;
-  const order = (
-    id: keyof typeof titles,
-    command: 'node.run' | 'node.pause' | 'node.step' | 'node.stop' | 'node.reset',
-  ): Command => ({
-    id,
-    title: titles[id],
+  const has = () => shownNode(studio) !== undefined;
+  const some = () => (robotOf(studio)?.nodes.length ?? 0) > 0;
+  const may = (act: NodeAct) => (act === 'stop' ? drives(studio) : mayAct(studio));
+  const order = (act: 'run' | 'pause' | 'step' | 'stop' | 'reset'): Command => ({
+    id: `node.${act}`,
+    title: titles[`node.${act}`],
     group,
-    enabled: has,
+    enabled: () => may(act) && has(),
     run: async () => {
       const node = shownNode(studio)?.id ?? 0;
-      reportFailed(studio, (await studio.sendInTurn(command, { node }))?.failed ?? []);
+      reportFailed(studio, (await studio.sendInTurn(`node.${act}`, { node }))?.failed ?? []);
     },
   });
   return [
@@ -102,28 +100,28 @@ export function nodeCommands(studio: Studio): Command[] {
       title: titles['node.load'],
       group,
       keys: ['Alt+Shift+U'],
-      enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
+      enabled: () => may('load') && some(),
       run: () => load(studio, shownNode(studio)?.id ?? 0),
     },
     {
       id: 'node.loadAll',
       title: titles['node.loadAll'],
       group,
-      enabled: () => drives(studio) && (robotOf(studio)?.nodes.length ?? 0) > 0,
+      enabled: () => may('load') && some(),
       run: () => load(studio, 0),
     },
     {
       id: 'node.save',
       title: titles['node.save'],
       group,
-      enabled: has,
+      enabled: () => may('save') && has(),
       run: () => keep(studio),
     },
-    order('node.run', 'node.run'),
-    order('node.pause', 'node.pause'),
-    order('node.step', 'node.step'),
-    order('node.stop', 'node.stop'),
-    order('node.reset', 'node.reset'),
+    order('run'),
+    order('pause'),
+    order('step'),
+    order('stop'),
+    order('reset'),
     ...nodeActs.flatMap((act): Command[] => {
       const id = allOf[act];
       return id
@@ -132,7 +130,7 @@ export function nodeCommands(studio: Studio): Command[] {
               id,
               title: titles[id],
               group,
-              enabled: some,
+              enabled: () => may(act) && some(),
               run: () => orderNodes(studio, act, []),
             },
           ]

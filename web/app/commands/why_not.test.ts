@@ -1,7 +1,7 @@
 import { expect, test, vi } from 'vitest';
 import { createWindowStore } from '../../core/window_state';
 import type { Studio } from '../../core/studio';
-import { refuse } from './why_not';
+import { refuse, whyNot } from './why_not';
 
 const studio = () =>
   ({
@@ -10,6 +10,7 @@ const studio = () =>
     topics: { get: () => ({ project: { name: 'P' } }) },
     drives: true,
     past: { at: null },
+    connection: { link: { state: 'open' } },
   }) as unknown as Studio;
 
 test.each([
@@ -26,6 +27,25 @@ test.each([
   expect(own.window.getState().toasts.map((one) => one.text)).toEqual(
     says ? ['Upload: No node is connected.'] : [],
   );
+});
+
+const command = (id: string) => ({ id, title: id, group: '', run: vi.fn() });
+
+test('TheReasonIsTheOneThatAPersonCanRemove', () => {
+  const looking = Object.assign(studio(), { drives: false });
+  expect(whyNot(looking, command('run.start'))).toBe('View only: request control first.');
+  expect(whyNot(looking, command('edit.definition'))).toBe('Open a script first.');
+  const away = Object.assign(studio(), {
+    drives: false,
+    connection: { link: { state: 'lost', since: 0 } },
+  });
+  for (const id of ['run.start', 'driver.ask'])
+    expect(whyNot(away, command(id))).toBe('The studio does not answer. Wait until it is back.');
+  const past = Object.assign(studio(), { past: { at: 1 } });
+  const looksBack = 'You are looking back: press Esc to return to now.';
+  for (const id of ['node.loadAll', 'plan.pause', 'tests.run', 'draw.into'])
+    expect(whyNot(past, command(id))).toBe(looksBack);
+  expect(whyNot(past, command('run.end'))).toBe('The run answers. Stop ends it.');
 });
 
 // Of a keyboard with AltGr they are characters: Ctrl+Alt+E is the sign of the euro.

@@ -13,6 +13,7 @@ import { update } from '../../core/window_state';
 import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Button } from '../parts/button';
 import { kStroke } from '../parts/icons';
+import { useMayAct } from '../past_hooks';
 import { text } from '../text';
 import { keysShown } from '../parts/keys_shown';
 
@@ -21,6 +22,7 @@ export function DocumentTools({ doc }: { doc: Doc }) {
   const { registry, window: store } = useStudio();
   const node = useTopic('robot', {})?.nodes.find((one) => one.doc === doc);
   const drives = useDrives();
+  const mayAct = useMayAct();
   const listing = useWindow((state) => state.listing[doc] ?? false);
   if (!doc.includes('#')) return null;
   const runs = node?.state === 'running';
@@ -29,7 +31,8 @@ export function DocumentTools({ doc }: { doc: Doc }) {
     update(store, (draft) => void (draft.doc = doc));
     registry.run(id);
   };
-  const off = !drives || !node || node.state === 'gone';
+  const isHere = node !== undefined && node.state !== 'gone';
+  const off = !mayAct || !isHere;
   return (
     <div className="doctools">
       <Button
@@ -66,7 +69,7 @@ export function DocumentTools({ doc }: { doc: Doc }) {
       <Button
         kind="plain"
         small
-        disabled={off || node.state === 'stopped'}
+        disabled={!drives || !isHere || node.state === 'stopped'}
         tip={text.commands['node.stop']}
         icon={<IconPlayerStop size={14} stroke={kStroke} />}
         onClick={() => run('node.stop')}

@@ -5,7 +5,7 @@ import { countsOf } from '../../../core/findings';
 import { kindOf } from '../../documents';
 import { text } from '../../text';
 import { revealElement } from './reveal_element';
-import { drives, projectOf, rememberPlan } from '../../commands/looks';
+import { drives, mayAct, projectOf, rememberPlan } from '../../commands/looks';
 
 const titles = text.commands;
 const group = text.groups.run;
@@ -13,16 +13,16 @@ const group = text.groups.run;
 /** The plan alone; the whole robot has the run commands. */
 export function planCommands(studio: Studio): Command[] {
   const state = () => studio.topics.get('plan', {})?.state ?? 'none';
-  const may = () => drives(studio) && projectOf(studio) !== null;
+  const may = () => mayAct(studio) && projectOf(studio) !== null;
   const goes = () => state() === 'running' || state() === 'paused';
   const make = (
     id: 'plan.pause' | 'plan.continue' | 'plan.step' | 'plan.stop',
-    when: () => boolean,
+    enabled: () => boolean,
   ): Command => ({
     id,
     title: titles[id],
     group,
-    enabled: () => may() && when(),
+    enabled,
     run: async () => void (await studio.sendInTurn(id, {})),
   });
   const held = (id: 'plan.held.step' | 'plan.held.go' | 'plan.held.drop'): Command => ({
@@ -46,10 +46,10 @@ export function planCommands(studio: Studio): Command[] {
         if (started !== null) rememberPlan(studio, doc);
       },
     },
-    make('plan.pause', () => state() === 'running'),
-    make('plan.continue', () => state() === 'paused'),
-    make('plan.step', goes),
-    make('plan.stop', goes),
+    make('plan.pause', () => may() && state() === 'running'),
+    make('plan.continue', () => may() && state() === 'paused'),
+    make('plan.step', () => may() && goes()),
+    make('plan.stop', () => drives(studio) && goes()),
     held('plan.held.step'),
     held('plan.held.go'),
     held('plan.held.drop'),

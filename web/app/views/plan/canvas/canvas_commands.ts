@@ -74,7 +74,7 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
   const isActor = ({ board }: ShownPlan) => edits() && board.actor(board.selected) !== undefined;
   const runFrom = () => update(studio.window, (draft) => void (draft.overlay = 'runFrom'));
   return [
-    make('draw.runFrom', ['R'], runFrom, isActor),
+    make('draw.runFrom', ['R'], runFrom, (plan) => isActor(plan) && studio.past.at === null),
     make(
       'draw.why',
       ['W'],

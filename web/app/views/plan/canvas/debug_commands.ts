@@ -5,7 +5,7 @@ import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
 import { revealDoc, toast } from '../../../../core/window_state';
 import { canLog, logAt } from '../../../commands/log_values';
-import { drives } from '../../../commands/looks';
+import { drives, mayAct } from '../../../commands/looks';
 import { text } from '../../../text';
 import { drawWords } from '../words';
 import { toggleBreak } from '../break_acts';
@@ -50,7 +50,7 @@ export function debugCommands(studio: Studio, properties: () => void): Command[]
       within: 'plan',
       keys: ['Ctrl+F10'],
       enabled: () =>
-        drives(studio) && starts().length > 0 && (plan() === 'running' || plan() === 'paused'),
+        mayAct(studio) && starts().length > 0 && (plan() === 'running' || plan() === 'paused'),
       run: () => goToScript(studio, 'plan.into', starts()),
     },
     {

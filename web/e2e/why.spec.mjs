@@ -116,6 +116,22 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   assert.match(replayed(server.folder), /no difference/);
 });
 
+test(
+  'while the drawing shows a line of the answer, the answer stays in sight',
+  wall,
+  async (studio) => {
+    const { page, layout, button } = studio;
+    await runTo(studio, 'backupCollision');
+    await layout('Draw');
+    await button('Why backupCollision?').click();
+    const raised = links(page).filter({ hasText: 'wallTouch raised TouchSensorPressed' });
+    await raised.click();
+    await seen(bar(page));
+    await seen(page.getByRole('region', { name: /drawn$/ }));
+    assert.ok(await raised.isVisible());
+  },
+);
+
 test('what is done by hand and changed is the same again', wall, async (studio) => {
   const { page, press, type, server } = studio;
   await runTo(studio, 'findWallAngle');

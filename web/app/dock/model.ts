@@ -124,9 +124,10 @@ export function areaFor(model: Model, kind: DocumentKind): TabSetNode | undefine
 }
 
 /** Where a panel opens that the layout does not hold: with its like, else where documents are. */
-export function areaForPanel(model: Model, like: string): TabSetNode | undefined {
-  const beside = model.getNodeById(`panel:${like}`)?.getParent();
-  return beside instanceof TabSetNode ? beside : areaFor(model, 'other');
+export function areaForPanel(model: Model, id: string): TabSetNode | undefined {
+  const { like = ['problems'] } = panelOf(id) ?? {};
+  const areas = like.map((one) => model.getNodeById(`panel:${one}`)?.getParent());
+  return areas.find((area) => area instanceof TabSetNode) ?? areaFor(model, 'other');
 }
 
 /** Gives the area of a tab at least so many pixels of height, taken from what is above or below. */
@@ -231,7 +232,7 @@ function boxOf(
         type: 'tabset',
         weight,
         config,
-        classNameTabStrip: stripOf(panels),
+        classNameTabStrip: 'strip',
         children: panels.map(panelTab),
       };
     }
@@ -255,8 +256,4 @@ function boxOf(
     case 'column':
       return { ...rowOf(box, extent, docs), weight };
   }
-}
-
-function stripOf(panels: readonly string[]): string {
-  return panels.length === 1 ? 'strip strip--alone' : 'strip';
 }

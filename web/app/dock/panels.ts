@@ -31,8 +31,8 @@ export interface Panel {
   title: string;
   /** Pixels that it needs to be of use when someone asks for it. */
   least?: number;
-  /** The panel it opens beside where a layout does not hold it; without it, with the problems. */
-  like?: string;
+  /** It opens beside the first of these that a layout holds, else with the documents; without it, with the problems. */
+  like?: readonly string[];
   icon: TablerIcon;
   /** It shows the past when a person looks back. */
   past?: true;
@@ -52,7 +52,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'palette',
-    like: 'project',
+    like: ['project'],
     title: text.panels.palette,
     icon: IconPuzzle,
     view: late(() => import('../panels/palette_panel')),
@@ -68,7 +68,7 @@ export const panels: readonly Panel[] = [
     id: 'events',
     past: true,
     least: 180,
-    like: 'watch',
+    like: ['watch', 'properties'],
     title: text.panels.events,
     icon: IconBroadcast,
     view: late(() => import('../panels/events/events_panel')),
@@ -114,7 +114,7 @@ export const panels: readonly Panel[] = [
   {
     id: 'variables',
     past: true,
-    like: 'watch',
+    like: ['watch', 'properties'],
     title: text.panels.variables,
     icon: IconVariable,
     view: late(() => import('../panels/variables/variables_panel')),
@@ -122,7 +122,7 @@ export const panels: readonly Panel[] = [
   {
     id: 'watch',
     past: true,
-    like: 'variables',
+    like: ['variables', 'properties'],
     title: text.panels.watch,
     icon: IconEye,
     view: late(() => import('../panels/variables/watch_panel')),
@@ -130,7 +130,7 @@ export const panels: readonly Panel[] = [
   {
     id: 'world',
     past: true,
-    like: 'documents',
+    like: ['documents'],
     title: text.panels.world,
     icon: IconMap2,
     view: late(() => import('../panels/world_panel')),
@@ -139,14 +139,14 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'properties',
-    like: 'watch',
+    like: ['watch'],
     title: text.panels.properties,
     icon: IconBook2,
     view: late(() => import('../panels/properties_panel')),
   },
   {
     id: 'why',
-    like: 'watch',
+    like: ['watch', 'properties'],
     least: 280,
     title: text.panels.why,
     icon: IconHelpCircle,
@@ -154,7 +154,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'runs',
-    like: 'documents',
+    like: ['documents'],
     title: text.panels.runs,
     icon: IconTimeline,
     view: late(() => import('../panels/runs/runs_panel')),
@@ -175,7 +175,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'network',
-    like: 'breakpoints',
+    like: ['breakpoints'],
     least: 300,
     title: text.panels.network,
     icon: IconNetwork,
@@ -189,7 +189,7 @@ export const panels: readonly Panel[] = [
   },
   {
     id: 'settings',
-    like: 'documents',
+    like: ['documents'],
     title: text.panels.settings,
     icon: IconSettings,
     view: late(() => import('../panels/settings_panel')),

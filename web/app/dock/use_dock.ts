@@ -274,8 +274,7 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
   const id = reveal.what === 'panel' ? `panel:${reveal.panel}` : `doc:${reveal.doc}`;
   const there = model.getNodeById(id);
   if (reveal.what === 'panel' && !reveal.focus) {
-    const like = panelOf(reveal.panel)?.like ?? 'problems';
-    if (hidesDocument(there ? there.getParent() : areaForPanel(model, like))) return;
+    if (hidesDocument(there ? there.getParent() : areaForPanel(model, reveal.panel))) return;
   }
   if (there instanceof TabNode && !(reveal.what === 'doc' && reveal.beside))
     model.doAction(Actions.selectTab(id));
@@ -332,7 +331,7 @@ function add(
 }
 
 function addPanel(model: Model, id: string): void {
-  const area = areaForPanel(model, panelOf(id)?.like ?? 'problems');
+  const area = areaForPanel(model, id);
   if (area)
     model.doAction(Actions.addTab(panelTab(id), area.getId(), DockLocation.CENTER, -1, true));
 }

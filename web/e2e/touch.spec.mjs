@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { makeProject, twoNodes } from './support/robots.mjs';
 import { boxOf, focused, gone, seen, test, until } from './support/studio.mjs';
+import { openWorld } from './support/world.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const tablet = { width: 1180, height: 820, touch: true };
@@ -174,5 +175,21 @@ test(
     const plot = list.getByRole('button', { name: 'Plot prox.ground.reflected' });
     const { x, width } = await boxOf(plot);
     assert.ok(x + width <= tablet.width, `it ends at ${x + width}`);
+  },
+);
+
+test(
+  'a second tap on a robot opens its menu, which asks why',
+  { ...tablet, words: ['--example', 'thymio'] },
+  async ({ page, layout, tab }) => {
+    await layout('Script');
+    await tab('Project').tap();
+    const { at, pose } = await openWorld(page, 'arena.world', [2, 1.5]);
+    const [x = 0, y = 0] = await pose('thymio');
+    const robot = await at(x, y);
+    await page.touchscreen.tap(robot.x, robot.y);
+    assert.equal(await page.getByRole('menu').count(), 0);
+    await page.touchscreen.tap(robot.x, robot.y);
+    await seen(page.getByRole('menuitem', { name: 'Why?' }));
   },
 );

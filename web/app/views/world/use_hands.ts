@@ -53,6 +53,8 @@ function attach(
   let grip: Grip | null = null;
   let begin: Point = { x: 0, y: 0 };
   let last: Point = { x: 0, y: 0 };
+  /** A finger is on what was chosen already. */
+  let tapped = false;
 
   const pointOf = (event: MouseEvent): Point => {
     const frame = place.getBoundingClientRect();
@@ -64,6 +66,7 @@ function attach(
   const down = (event: PointerEvent) => {
     if (!(event.target instanceof HTMLCanvasElement)) return;
     const at = (begin = last = pointOf(event));
+    tapped = false;
     const now = eye.current;
     if (!now) return;
     place.focus({ preventScroll: true });
@@ -72,6 +75,7 @@ function attach(
     const { hit, ground, onHandle } = now.meet(at);
     if (onHandle && model.selected !== null && may()) grip = { is: 'handle', key: model.selected };
     else if (hit && ground) {
+      tapped = event.pointerType === 'touch' && model.selected === hit.thing.key;
       model.select(hit.thing.key);
       const offset = { x: hit.pose.x - ground.x, y: hit.pose.y - ground.y };
       const since = performance.now();
@@ -191,6 +195,12 @@ function attach(
     const { width, height } = place.getBoundingClientRect();
     openMenu(byPointer ? pointOf(event) : { x: width / 2, y: height / 2 });
   };
+  /** A finger has no other button: a second tap on a robot is for its menu. */
+  const click = () => {
+    const stayed = Math.hypot(last.x - begin.x, last.y - begin.y) <= kClickPx;
+    if (tapped && stayed && model.chosen?.kind === 'robot') openMenu(last);
+    tapped = false;
+  };
 
   const listen: [string, (event: never) => void, AddEventListenerOptions?][] = [
     // First: what is held is not to move the picture as well.
@@ -201,6 +211,7 @@ function attach(
     ['pointerleave', leave],
     ['wheel', wheel, { passive: false, capture: true }],
     ['contextmenu', menu],
+    ['click', click],
   ];
   for (const [name, act, options] of listen)
     place.addEventListener(name, act as EventListener, options);

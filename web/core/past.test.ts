@@ -106,6 +106,21 @@ describe('the past', () => {
     expect(past.at).toBe(61.5);
   });
 
+  it('goes to the end behind the last step of the plan, to the beginning before the first', async () => {
+    const { past, asked } = aPast();
+    past.look(50);
+    await asked[0]?.answer();
+    for (const [forward, to] of [
+      [true, past.end],
+      [false, past.start],
+    ] as const) {
+      const done = past.stepOfPlan(forward);
+      await asked.at(-1)?.answer({});
+      await done;
+      expect(past.at).toBe(to);
+    }
+  });
+
   it('ends when another run begins', () => {
     const { past, history } = aPast();
     past.told();

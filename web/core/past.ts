@@ -90,12 +90,11 @@ export class Past {
     this.look(Math.round(((this.at ?? this.end) + by) * 1e6) / 1e6);
   }
 
-  /** To where the plan made its next step, or the one before. */
+  /** To where the plan made its next step, or the one before; behind its last one to the end, before its first one to the beginning. */
   async stepOfPlan(forward: boolean): Promise<void> {
     const t = this.at ?? this.end;
     const out = await this.connection.send('history.at', this.input(t, 0));
-    const to = forward ? out.next : out.before;
-    if (to !== undefined) this.look(to);
+    this.look((forward ? out.next : out.before) ?? (forward ? this.end : this.start));
   }
 
   /** Now again; from a trace there is no now, it stays open. */

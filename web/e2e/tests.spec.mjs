@@ -59,6 +59,13 @@ const bad = json({
     { always: 'x < 2.4', help: 'stays away from the wall' },
   ],
 });
+/** The node that drives hangs, and the plan ends in an error. */
+const hung = json({
+  ...inRoom,
+  max_time: 12,
+  chaos: [{ kind: 'hung', node: 'drive', at: 1 }],
+  expect: [{ ends: 'Interrupted', by: 'late' }],
+});
 const alone = json({
   format: 'vagus-test/1',
   plan: 'Pause.plan.json',
@@ -220,6 +227,21 @@ test(
       return t > 0.2 && t < 4;
     });
     await press('Shift+F5');
+  },
+);
+
+test(
+  'the recording of a plan that ended in an error is opened at that instant',
+  project({ 'Hung.test.json': hung }),
+  async ({ page, command }) => {
+    await command('Run all tests of the project');
+    await reads(said(page), '1 of 1 run not as expected.');
+    await page.getByRole('button', { name: 'Open the recording' }).click();
+    const bar = page.getByRole('region', { name: 'Looking back' });
+    await reads(bar, /Everything shows 1\.\d+ s/);
+    // The beginning of a plan that has taken no step is the step before.
+    await page.getByRole('button', { name: /^To the step of the plan before/ }).click();
+    await reads(bar, /Everything shows 0\.000 s/);
   },
 );
 

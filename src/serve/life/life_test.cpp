@@ -404,6 +404,17 @@ TEST(Life, ARunWithAPastHasAsLongAsItsProcessSaysThatItIsThere) {
     }
 }
 
+// Whoever opens the recording of a plan that failed wants to see just that.
+TEST(Life, APastThatEndedInAnErrorIsOpenedAtItsEnd) {
+    Bench bench;
+    const CallNumber call = bench.call();
+    bench.take(Start{.call = call, .plan = true, .go = false, .again = true, .past = true});
+    bench.take(Opened{});
+    EXPECT_EQ(bench.take(PlanEnded{"Error", "go: it is broken"}), "make-safe tell ");
+    EXPECT_EQ(bench.answers[call], 0);
+    EXPECT_EQ(bench.ends[0].message, "go: it is broken");
+}
+
 TEST(Life, APastWhoseProcessIsSilentIsNotWaitedFor) {
     Bench bench;
     const CallNumber call = bench.call();

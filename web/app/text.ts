@@ -325,7 +325,7 @@ export const text = {
     notRecorded: 'not recorded',
     dashed: 'Dashed: where it is now',
     tested: (path: string) =>
-      `${path} expects what this run did: trim it, then vagus test runs it with other seeds.`,
+      `${path} expects what this run did. Trim it, then run it (F5), also with other seeds.`,
     saved: (path: string) => `The trace is in ${path}.`,
     noPlan: (path: string) =>
       `${path}: no plan of this project has the name of its plan, so only the timeline is shown.`,

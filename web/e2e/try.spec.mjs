@@ -56,6 +56,26 @@ const project = {
     ),
 };
 
+const kWorld = {
+  format: 'vagus-world/1',
+  name: 'Hall',
+  seed: 1,
+  size: [3, 2],
+  robots: [{ name: 'thymio', type: 'thymio2', at: [1, 1], angle: 0 }],
+};
+const running = {
+  prepare: (/** @type {TestContext} */ t) =>
+    makeProject(
+      t,
+      { name: 'Try', plan: 'Hall.plan.json', world: 'hall.world.json', target: 'sim' },
+      {
+        'Hall.plan.json': text(kPlan),
+        'Nap.plan.json': text(kNap),
+        'hall.world.json': text(kWorld),
+      },
+    ),
+};
+
 const bar = (/** @type {Page} */ page) => page.getByRole('region', { name: 'Try' });
 const lane = (/** @type {Page} */ page) =>
   page.getByRole('list', { name: 'The way so far' }).getByRole('button');
@@ -189,6 +209,30 @@ test('a sub-plan that another program changes is tried as it is then', project, 
   writeFileSync(join(place, 'Nap.plan.json'), text({ ...kNap, actors: { sleep } }));
   await reads(bar(page), /sleep is active[^]*Received/);
 });
+
+test(
+  'what runs and what ran is shown in place of a plan that is tried',
+  running,
+  async (studio) => {
+    const { page, press } = studio;
+    await tries(studio);
+    await press('1');
+    await reads(lane(page).first(), /drive\s*Done/);
+    await press('F5');
+    await gone(bar(page));
+    await seen(page.getByRole('button', { name: /Running/ }));
+    await press('F8');
+    await studio.command('Try the plan by hand');
+    // As far as it was.
+    await reads(lane(page).first(), /drive\s*Done/);
+    await press('Alt+F10');
+    await seen(page.getByRole('region', { name: 'Looking back' }));
+    await gone(bar(page));
+    await studio.command('Try the plan by hand');
+    await gone(page.getByRole('region', { name: 'Looking back' }));
+    await reads(lane(page).first(), /drive\s*Done/);
+  },
+);
 
 test('an edited plan is tried as it is now', project, async (studio) => {
   const { page, press } = studio;

@@ -97,6 +97,26 @@ test('choices that do not fit the edited plan are dropped; what is wrong with it
   expect([trying.doc, trying.answer, trying.trouble]).toEqual([null, null, '']);
 });
 
+test('where it gave way to a run it goes on when the plan is tried again; left, it begins', async () => {
+  const asked: Commands['plan.try']['in'][] = [];
+  const trying = new Trying((input) => {
+    asked.push(input);
+    return Promise.resolve(waiting());
+  });
+  const settled = () => new Promise((resolve) => setImmediate(resolve));
+  trying.start('Hall.plan.json');
+  await settled();
+  await trying.choose(choice('drive', 'Done'));
+  trying.giveWay();
+  expect([trying.doc, trying.answer]).toEqual([null, null]);
+  trying.start('Hall.plan.json');
+  await settled();
+  expect(asked.at(-1)?.way).toEqual([choice('drive', 'Done')]);
+  trying.leave();
+  trying.start('Hall.plan.json');
+  expect(asked.at(-1)?.way).toEqual([]);
+});
+
 test('two presses in one situation choose once, and an answer after the end counts no more', async () => {
   const waits: ((answer: Tried) => void)[] = [];
   const trying = new Trying(() => new Promise((resolve) => waits.push(resolve)));

@@ -32,12 +32,16 @@ export class Trying {
   /** What was typed for outputs of the active actor, by name. */
   typed: Readonly<Record<string, string>> = {};
   private asked = 0;
+  /** Where it gave way to what is shown in its place. */
+  private left: { doc: Doc; way: readonly TryChoice[] } | null = null;
 
   constructor(private readonly send: (input: Input) => Promise<Tried>) {}
 
   start(doc: Doc): void {
+    const way = this.left?.doc === doc ? this.left.way : [];
+    this.left = null;
     Object.assign(this, { doc, answer: null, trouble: '' });
-    void this.go([]);
+    void this.go(way);
   }
 
   /** By their numbers, from 0: states first, then events. */
@@ -124,6 +128,14 @@ export class Trying {
     this.changed.emit();
   }
 
+  /** A run that begins, or the past, is shown in its place; the way is there when it is tried again. */
+  giveWay(): void {
+    const { doc, way } = this;
+    if (doc === null) return;
+    this.leave();
+    this.left = { doc, way };
+  }
+
   leave(): void {
     ++this.asked;
     const nothing = { doc: null, way: [], answer: null, trouble: '', waits: false, typed: {} };
@@ -146,9 +158,28 @@ function valueOf({ type }: Output, typed: string): string | number | boolean | u
   return Number.isFinite(number) ? number : typed;
 }
 
-export const tryingOf: (studio: Studio) => Trying = deskFor(
-  (studio: Studio) => new Trying((input) => studio.send('plan.try', input)),
-);
+export const tryingOf: (studio: Studio) => Trying = deskFor((studio: Studio) => {
+  const trying = new Trying((input) => studio.send('plan.try', input));
+  const { past, topics } = studio;
+  const runs = () => studio.drives && topics.get('plan', {})?.state === 'running';
+  const isPast = () => past.at !== null;
+  topics.subscribe(
+    'plan',
+    {},
+    whenBegins(runs, () => trying.giveWay()),
+  );
+  past.changed.on(whenBegins(isPast, () => trying.giveWay()));
+  return trying;
+});
+
+function whenBegins(holds: () => boolean, act: () => void): () => void {
+  let held = holds();
+  return () => {
+    const holding = holds();
+    if (holding && !held) act();
+    held = holding;
+  };
+}
 
 /** As a terminal has it, "/home/me/P.plan.json:12:3: error: …", without the folder and the word. */
 function sentenceOf(why: string): string {

@@ -4,10 +4,12 @@ import { tryingOf } from '../../../../core/plan/trying';
 import { useChanges, useStudio } from '../../../hooks';
 import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
+import { tryPlan } from './try_commands';
 import { tryWords as words } from './words';
 
 export function TryButton({ doc }: { doc: Doc }) {
-  const trying = tryingOf(useStudio());
+  const studio = useStudio();
+  const trying = tryingOf(studio);
   useChanges(trying.changed);
   const isOn = trying.doc === doc;
   return (
@@ -18,7 +20,7 @@ export function TryButton({ doc }: { doc: Doc }) {
       aria-label={words.button}
       tip={words.tip}
       icon={<IconHandClick size={14} stroke={kStroke} />}
-      onClick={() => (isOn ? trying.leave() : trying.start(doc))}
+      onClick={() => (isOn ? trying.leave() : tryPlan(studio, doc))}
     >
       <span className="plan__word">{words.button}</span>
     </Button>

@@ -1,4 +1,5 @@
 import { arrowId, supervisorKey } from '../../../../core/plan/arrows';
+import type { Doc } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { supervisorsOf } from '../../../../core/plan/model';
 import { tryingOf, type Option, type Trying } from '../../../../core/plan/trying';
@@ -17,9 +18,15 @@ export function tryCommands(studio: Studio): Command[] {
       title: words.command,
       group: text.groups.draw,
       enabled: () => kindOf(doc()) === 'plan',
-      run: () => tryingOf(studio).start(doc()),
+      run: () => tryPlan(studio, doc()),
     },
   ];
+}
+
+/** Shown in place of what runs, now: of the past nothing is shown then. */
+export function tryPlan(studio: Studio, doc: Doc): void {
+  studio.past.back();
+  tryingOf(studio).start(doc);
 }
 
 /** Chooses what was clicked in the drawing of a plan that is tried; false: it is nothing to choose. null: none is tried. */

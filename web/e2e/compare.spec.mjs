@@ -234,6 +234,27 @@ test('a file that changed on disk is compared by keys, and left', project, async
   assert.deepEqual(await marked(page), []);
 });
 
+test(
+  'the other version is followed: another plan, and the file when it is saved',
+  project,
+  async (studio) => {
+    const { page, place, layout, press } = studio;
+    await layout('Draw');
+    await seen(page.getByRole('group', { name: /^hold, actor/ }));
+    await compareWith(studio, 'V1.plan.json');
+    await reads(strip(page), /≠\s*\d+\s*changed/);
+    writeFileSync(join(place, 'V1.plan.json'), text(kPlan));
+    await reads(strip(page), /No difference/);
+    await press('Escape');
+    await page.getByRole('group', { name: /^hold, actor/ }).focus();
+    await press('Space', 'Delete');
+    await compareWith(studio, 'The file on disk');
+    await reads(strip(page), /−\s*\d+\s*removed/);
+    await press('Control+s');
+    await reads(strip(page), /No difference/);
+  },
+);
+
 test('a commit, and the version that runs, are compared', project, async (studio) => {
   const { page, place, layout, press } = studio;
   const git = (/** @type {string[]} */ ...words) =>

@@ -1,5 +1,5 @@
 import { useEffect, useMemo } from 'react';
-import type { Doc } from '../../../../protocol/messages';
+import type { Doc, Topics } from '../../../../protocol/messages';
 import type { PlanBoard } from '../../../../core/plan/board';
 import { comparingOf, type Compared, type Comparing } from '../../../../core/plan/comparing';
 import { ghostsOf, type Ghosts } from '../../../../core/plan/ghosts';
@@ -14,13 +14,18 @@ export function useComparing(doc: Doc): Comparing | null {
   return comparing.doc === doc ? comparing : null;
 }
 
-/** Compares again when the text, the file, or what runs is another one. */
+/** Compares again when the text, the file, the other plan, or what runs is another one. */
 export function useCompared(comparing: Comparing, doc: Doc): void {
-  const version = usePart('doc', { doc }, (is) => is?.version);
-  const disk = usePart('doc', { doc }, (is) => is?.disk_hash);
+  const file = comparing.other?.file;
+  const own = usePart('doc', { doc }, versionOf);
+  const other = usePart('doc', file === undefined ? null : { doc: file }, versionOf);
   const taken = usePart('plan', {}, (is) => `${is?.state} ${is?.change?.number}`);
-  useEffect(() => void comparing.ask(), [comparing, version, disk, taken]);
+  useEffect(() => void comparing.ask(), [comparing, own, other, taken]);
 }
+
+/** Of the text, and of what is on disk: a text that was saved is what the file has. */
+const versionOf = (is: Topics['doc']['is'] | undefined): string =>
+  `${is?.version} ${is?.unsaved} ${is?.disk_hash}`;
 
 const kWaysMs = 100; // for the ways of arrows as they were
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject, twoNodes } from './support/robots.mjs';
-import { startProgram, vagusProgram } from './support/server.mjs';
+import { restarted } from './support/server.mjs';
 import { hands, openWindow, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Locator, Page, Studio, TestContext } from './support/studio.mjs' */
 
@@ -27,23 +27,6 @@ async function typeAtEnd(
   await studio.editor(node).click();
   await studio.press('Control+End');
   await studio.type(what);
-}
-
-/** The server is killed, and started again at the same address; `meanwhile` is between the two. */
-async function restarted(
-  /** @type {Studio} */ { t, server },
-  /** @type {() => unknown} */ meanwhile = () => {},
-) {
-  const { port } = new URL(server.address);
-  await server.program.stop('SIGKILL');
-  await meanwhile();
-  const words = server.program.child.spawnargs.slice(1);
-  const at = words.indexOf('--port');
-  const again = startProgram(/** @type {TestContext} */ (t), [
-    vagusProgram,
-    ...words.with(at + 1, port),
-  ]);
-  await again.line(/^studio (\S+)$/m);
 }
 
 const plan = {

@@ -6,7 +6,7 @@ import { mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { makeProject } from './support/robots.mjs';
-import { root, vagusProgram } from './support/server.mjs';
+import { restarted, root, vagusProgram } from './support/server.mjs';
 import { focused, gone, openWindow, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
@@ -300,6 +300,19 @@ test(
     await until('none of its processes is left', () =>
       Promise.resolve(processesOf('test-host').length === 0),
     );
+  },
+);
+
+test(
+  'results that a killed server had are told as gone',
+  project({ 'Alone.test.json': alone }),
+  async (studio) => {
+    const { page, command } = studio;
+    await command('Run all tests of the project');
+    await reads(said(page), '1 run as expected.');
+    await restarted(studio);
+    await seen(page.getByText(/the results of the tests are gone/));
+    studio.complaints.length = 0; // of a server that does not answer
   },
 );
 

@@ -136,3 +136,18 @@ export async function startServer(test, words = [], folder = temporaryFolder(tes
   const [, address = ''] = await program.line(/^studio (\S+)$/m);
   return { program, address, data, folder };
 }
+
+/**
+ * The server is killed, and started again at the same address; `meanwhile` is between the two.
+ * @param {{ t?: Test, server: Server }} studio
+ * @param {() => unknown} meanwhile
+ */
+export async function restarted({ t, server }, meanwhile = () => {}) {
+  const { port } = new URL(server.address);
+  await server.program.stop('SIGKILL');
+  await meanwhile();
+  const words = server.program.child.spawnargs.slice(1);
+  const at = words.indexOf('--port');
+  const again = startProgram(/** @type {Test} */ (t), [vagusProgram, ...words.with(at + 1, port)]);
+  await again.line(/^studio (\S+)$/m);
+}

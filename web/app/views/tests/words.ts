@@ -8,6 +8,7 @@ const runs = (count: number) => counted(count, 'run', 'runs');
 
 export const testWords = {
   none: 'No test has been run yet.',
+  lost: 'The studio was started again, and the results of the tests are gone. Run them again.',
   how: 'A test says what is expected of every run of a plan. Run all tests of the project, or open one, a file NAME.test.json, and press F5. “Keep the run as a test” in the timeline writes a first one.',
   list: 'Tests, and what was not as expected',
   run: 'Run this test',

@@ -142,11 +142,16 @@ void Judge::end(Case& one, const run::Ended& ended) {
         const bool same =
             expected.ends == way_of(ended) && (expected.by.empty() || expected.by == ended_by_);
         if (same) return;
-        fail(one, now,
-             fmt::format("it ended {}{}{}, at {} s", way_of(ended),
-                         ended_by_.empty() ? "" : " by " + ended_by_,
-                         ended.message.empty() ? "" : " (" + ended.message + ")", seconds(now)));
+        fail(one, now, how_it_ended(ended, now));
     }
+}
+
+std::string Judge::how_it_ended(const run::Ended& ended, Time now) const {
+    if (ended.timed_out)
+        return fmt::format("it had not ended after its max_time, {} s", seconds(now));
+    return fmt::format("it ended {}{}{}, at {} s", way_of(ended),
+                       ended_by_.empty() ? "" : " by " + ended_by_,
+                       ended.message.empty() ? "" : " (" + ended.message + ")", seconds(now));
 }
 
 }  // namespace vagus::trial

@@ -54,6 +54,7 @@ private:
     void ask(Case& one);
     void follow_order(const plan::TraceEvent& event, const plan::ActorStarted& started);
     void fail(Case& one, Time at, std::string what);
+    std::string how_it_ended(const run::Ended& ended, Time now) const;
     void end(Case& one, const run::Ended& ended);
     std::string values_of(const Condition& condition) const;
 

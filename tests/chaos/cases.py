@@ -88,7 +88,7 @@ class Chaos(unittest.TestCase):
         # One lost frame is enough, and the window of the fault is about as short as that.
         self.assertLessEqual(fault["until"] - fault["from"], 0.05, fault)
         # What was written breaks the plan by itself; the repaired plan survives it.
-        self.assertIn("ends OK: it ended MaxTime", run_vagus("test", found[7], "--results", self.results, status=1))
+        self.assertIn("ends OK: it had not ended after its max_time", run_vagus("test", found[7], "--results", self.results, status=1))
         strong = self.write_test("Strong", chaos=written["chaos"], seeds=written["seeds"])
         self.assertIn("1 of 1 runs as expected", run_vagus("test", strong))
         self.assertIn("no difference", run_vagus("replay", found[6]))

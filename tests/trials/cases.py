@@ -146,10 +146,10 @@ class Trials(unittest.TestCase):
         said = self.run_test("--coverage", plan, status=2)
         self.assertIn(f"{plan}: is a file; --coverage expects a folder", said)
         self.assertEqual(json.loads(plan.read_text()), PLAN)
-        for name in ("scripts.info", "coverage.txt", "Ahead.svg"):
+        for name in ("scripts.info", "Ahead.svg"):
             other = self.folder / name
             other.write_text("mine")
-            said = self.run_test("--coverage", self.folder, status=1 if name == "Ahead.svg" else 2)
+            said = self.run_test("--coverage", self.folder, status=2 if name == "scripts.info" else 1)
             self.assertIn(f"{other}: is there already, and is not a", said)
             self.assertEqual(other.read_text(), "mine")
             other.unlink()

@@ -136,10 +136,7 @@ struct FileKind {
 constexpr FileKind kJunit{"a report of JUnit", trial::kJunitBegins};
 constexpr FileKind kLcov{"a tracefile of lcov", trial::kLcovBegins};
 constexpr FileKind kDrawing{"a drawing of coverage", trial::kDrawingBegins};
-constexpr std::string_view kTableBegins = "Coverage, by vagus test\n";
-constexpr FileKind kTable{"a table of coverage", kTableBegins};
 constexpr const char* kScriptsFile = "scripts.info";
-constexpr const char* kTableFile = "coverage.txt";
 
 Status check_replaceable(const std::string& path, const FileKind& kind) {
     if (!is_file_of_another_kind(path, kind.begins)) return Status::done();
@@ -164,8 +161,7 @@ Status check_places(const TestOptions& options) {
                                                 "is made if there is none",
                                                 options.coverage)};
     }
-    TRY(check_replaceable((folder / kScriptsFile).string(), kLcov));
-    return check_replaceable((folder / kTableFile).string(), kTable);
+    return check_replaceable((folder / kScriptsFile).string(), kLcov);
 }
 
 // ---- running ----
@@ -303,8 +299,7 @@ private:
         const fs::path folder(options_.coverage);
         std::error_code error;
         fs::create_directories(folder, error);
-        std::string text(kTableBegins);
-        text += trial::format_table(coverage);
+        std::string text = trial::format_table(coverage);
         for (const auto& [file, plan] : coverage.plans) {
             const std::string missing = trial::format_missing(plan);
             if (!missing.empty()) text += "\nnever, " + file + ":\n" + missing;
@@ -313,7 +308,7 @@ private:
             if (!script.only_told) continue;
             text += "\nas far as frames tell, " + file + ":\n" + trial::format_told(script);
         }
-        TRY(replace_file((folder / kTableFile).string(), kTable, text));
+        TRY(write_file((folder / "coverage.txt").string(), text));
         TRY(replace_file((folder / kScriptsFile).string(), kLcov, trial::format_lcov(coverage)));
         std::vector<plan::Plan> plans = TRY(plans_of_tests());
         plans.insert(plans.end(), recorded.begin(), recorded.end());

@@ -11,7 +11,7 @@ import { openWindow, seen, test, until } from './support/studio.mjs';
 const isLong = process.env['VAGUS_LONG'] !== undefined;
 const kPlans = isLong ? 50 : 10;
 /** Of the plans in one test: each has a server of its own. */
-const kPlansInOne = 10;
+const kPlansInOne = 5;
 
 /** Numbers below a bound, the same for the same seed. */
 function seeded(/** @type {number} */ seed) {

@@ -159,6 +159,9 @@ test(
 test('two pages look at one run, each at an instant of its own', wall, async (studio, t) => {
   const { page, press, server } = studio;
   await run(studio, 6);
+  // What is in sight moves on after 30 s, and a second window may take as long.
+  await press('F8');
+  await reads(page.locator('.clock'), /Paused/);
   const other = await openWindow(t, server, {});
   await other.layout('Debug');
   await other.page.getByRole('tab', { name: 'Timeline' }).click();

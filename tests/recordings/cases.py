@@ -465,7 +465,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(found["/plan/trace"]["b"]["kind"], "change")
 
     def test_what_a_person_did_later_is_not_done(self):
-        """Ended by a signal then; the way from 0.2 s on goes as far as it is let go."""
+        """Ended by a signal then; the way from 0.02 s on goes as far as it is let go."""
         with vagus("plan", "run", EXAMPLES / "follow-wall/WallFollow.plan.json", "--world",
                    EXAMPLES / "follow-wall/hall.world.json", "--headless", "--record", self.file) as program:
             program.wait_line(r"searchFirstWall")
@@ -475,7 +475,7 @@ class Recordings(unittest.TestCase):
                     pass
             program.signal(signal.SIGINT)
             program.wait_end()
-        found = self.goes_another_way("--until", 30, at=0.2)
+        found = self.goes_another_way("--until", 30, at=0.02)
         self.assertIn("end", found)
         self.assertGreaterEqual(found["end"]["b"]["t"], 30)
         self.assertLess(found["end"]["a"]["t"], 30)

@@ -1,9 +1,6 @@
 // `vagus emulate`: emulated microcontrollers on the desk, each with the firmware of its board,
 // joined by a switch.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -15,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/folder_lock.hpp"
 #include "cli/emulate/board.hpp"
 #include "cli/emulate/keep.hpp"
 #include "cli/emulate/process.hpp"
@@ -68,25 +66,23 @@ Result<std::vector<Emulation>> emulations_of(const EmulateOptions& options) {
     return all;
 }
 
-// Makes the folder, and sees that no other command keeps boards in it: gives the descriptor that
-// has it locked, until the process ends in whatever way.
-Result<int> take_folder(const std::string& path) {
-    std::error_code wrong;
-    fs::create_directories(path, wrong);
-    if (wrong) return Error{Code::Unavailable, "--keep " + path + ": " + wrong.message()};
-    const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0 && ::flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
-    const bool used = folder >= 0 && errno == EWOULDBLOCK;
-    const std::string why =
-        used ? "another vagus emulate keeps its boards there; end it, or give another folder"
-             : std::strerror(errno);
-    if (folder >= 0) ::close(folder);
-    return Error{Code::Unavailable, "--keep " + path + ": " + why};
+// No other command keeps boards in it, until the process ends in whatever way.
+Result<FolderLock> take_folder(const std::string& path) {
+    auto lock = FolderLock::take(path);
+    if (!lock.ok() && lock.error().code == Code::Refused) {
+        return Error{Code::Unavailable, "--keep " + path +
+                                            ": another vagus emulate keeps its boards there; end "
+                                            "it, or give another folder"};
+    }
+    if (!lock.ok()) return Error{Code::Unavailable, "--keep " + lock.error().what};
+    if (!lock.value().holds()) {
+        return Error{Code::Unavailable, "--keep " + path + ": " + std::strerror(ENOLCK)};
+    }
+    return lock;
 }
 
 class Desk {
 public:
-    ~Desk();
     Status open(const EmulateOptions& options);
     // Until it is interrupted, or a board is lost.
     int run();
@@ -105,15 +101,11 @@ private:
     net::Links links_;                                    // behind the hub: it goes first
     std::map<net::PlaceId, MemoryKeeper*> lines_;         // of the boards; null: none is needed
     std::optional<net::PlaceId> switch_;                  // that was connected to
-    int folder_ = -1;
+    std::optional<FolderLock> folder_;
 };
 
-Desk::~Desk() {
-    if (folder_ >= 0) ::close(folder_);
-}
-
 Status Desk::open(const EmulateOptions& options) {
-    if (!options.keep.empty()) folder_ = TRY(take_folder(options.keep));
+    if (!options.keep.empty()) folder_.emplace(TRY(take_folder(options.keep)));
     const auto emulations = TRY(emulations_of(options));
     TRY(links_.watch_signals());
     std::string text = TRY(open_network(options));

@@ -24,7 +24,6 @@ constexpr const char* kGone = "gone";
 constexpr const char* kTrial = "trial.json";
 constexpr const char* kList = "deployed.json";
 constexpr const char* kFiles = "files";
-constexpr const char* kLock = ".lock";  // behind the name of the folder
 
 Status outcome(const std::error_code& failed, const fs::path& path) {
     if (!failed) return Status::done();
@@ -78,10 +77,7 @@ Status Versions::tidy_up() {
 
 Status Versions::hold() {
     if (held_) return Status::done();
-    std::error_code failed;
-    fs::create_directories(root_.parent_path(), failed);
-    TRY(outcome(failed, root_.parent_path()));
-    auto lock = GrowingFile::create(root_.string() + kLock);
+    auto lock = FolderLock::take(root_.string());
     if (!lock.ok() && lock.error().code == Code::Refused) {
         return Error{Code::Refused,
                      fmt::format("{}: another robot that is served from this folder keeps its "

@@ -5,7 +5,6 @@
 //                             4/deployed.json, 4/files/…
 //                             current     link to 4; without it version 0 is in force
 //                             trial.json  current has not shown yet that it starts
-//     PROJECT/.vagus/versions.lock        open in the server that changes all this
 //
 // Each change of what is in force is one rename, and everything it leads to is on the disk before:
 // after a power cut at any moment it is the one or the other, whole.
@@ -17,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.hpp"
+#include "base/folder_lock.hpp"
 #include "base/result.hpp"
 #include "serve/workbench/bundle.hpp"
 
@@ -76,7 +75,7 @@ private:
     std::filesystem::path place(uint32_t version) const;
 
     std::filesystem::path project_, root_;
-    std::optional<GrowingFile> held_;
+    std::optional<FolderLock> held_;
 };
 
 }  // namespace vagus::serve

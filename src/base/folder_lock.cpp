@@ -1,0 +1,34 @@
+#include "base/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+namespace vagus {
+
+Result<FolderLock> FolderLock::take(const std::string& path) {
+    std::error_code failed;
+    std::filesystem::create_directories(path, failed);
+    if (failed) return Error{Code::Unavailable, path + ": " + failed.message()};
+    const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return Error{Code::Unavailable, path + ": " + std::strerror(errno)};
+    const bool holds = ::flock(folder, LOCK_EX | LOCK_NB) == 0;
+    const bool is_taken = !holds && errno == EWOULDBLOCK;
+    FolderLock lock(folder, holds);
+    if (is_taken) return Error{Code::Refused, path + ": another program uses this folder"};
+    return lock;
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept
+    : folder_(std::exchange(other.folder_, -1)), holds_(other.holds_) {}
+
+FolderLock::~FolderLock() {
+    if (folder_ >= 0) ::close(folder_);
+}
+
+}  // namespace vagus

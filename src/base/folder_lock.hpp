@@ -1,0 +1,34 @@
+// A folder that one process uses at a time.
+//
+//     const FolderLock lock = TRY(FolderLock::take("boards"));
+//
+// The system lets go of it when the process ends, in whatever way: nothing has to be cleaned up
+// after one that was killed.
+#pragma once
+
+#include <string>
+
+#include "base/result.hpp"
+
+namespace vagus {
+
+class FolderLock {
+public:
+    // Makes the folder if it is not there. Refused: another one holds it. Unavailable: it cannot be
+    // made or opened, and why.
+    static Result<FolderLock> take(const std::string& path);
+    ~FolderLock();
+    FolderLock(FolderLock&& other) noexcept;
+    FolderLock& operator=(FolderLock&&) = delete;
+
+    // False: the file system has no locks, so another process may use the folder, too.
+    bool holds() const { return holds_; }
+
+private:
+    FolderLock(int folder, bool holds) : folder_(folder), holds_(holds) {}
+
+    int folder_ = -1;  // -1: it was moved
+    bool holds_ = false;
+};
+
+}  // namespace vagus

@@ -80,7 +80,8 @@ FleetRobot::FleetRobot(Workbench& bench, const OpenedProject& project, fleet::Me
     : bench_(bench),
       talk_(std::move(talk)),
       project_(options.project),
-      said_(fleet::description_of(project.fleet, project.name, project.plan)),
+      name_(project.name),
+      plan_(project.plan),
       member_(options, now),
       tell_list_(options.project.tell),
       link_(std::move(link), talk_.wake),
@@ -146,8 +147,7 @@ FleetRobot::~FleetRobot() {
 }
 
 bool FleetRobot::is_of(const OpenedProject& project) const {
-    return project.fleet == project_ &&
-           fleet::description_of(project.fleet, project.name, project.plan) == said_;
+    return project.name == name_ && project.plan == plan_ && project.fleet == project_;
 }
 
 // One that is started again and again is not shown as running and stopped in turn.

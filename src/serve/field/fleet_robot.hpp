@@ -66,7 +66,7 @@ private:
     Workbench& bench_;
     const Talk talk_;
     const fleet::ProjectPart project_;
-    const fleet::Description said_;  // of the project, without what this program adds
+    const std::string name_, plan_;  // of the project
     fleet::Member member_;
     fleet::TellList tell_list_;
     std::string refused_;

@@ -58,11 +58,7 @@ void append_words(std::string& to, std::span<const int16_t> words) {
     char* const end = to.data() + to.size();
     *at++ = '[';
     for (const int16_t word : words) {
-        if (word >= 0 && word <= 9) {  // most are 0
-            *at++ = static_cast<char>('0' + word);
-        } else {
-            at = std::to_chars(at, end, word).ptr;
-        }
+        at = std::to_chars(at, end, word).ptr;
         *at++ = ',';
     }
     if (!words.empty()) --at;
@@ -144,10 +140,6 @@ std::optional<ToldNode> read_node(std::string_view data) {
 RecordedVariable::RecordedVariable(std::string_view name, uint16_t address_of, uint16_t size_of)
     : key(json_quote(name) + ':'), address(address_of), size(size_of) {}
 
-void sort_by_address(RecordedVariables& variables) {
-    std::ranges::stable_sort(variables, {}, &RecordedVariable::address);
-}
-
 namespace {
 
 bool is_in(const RecordedVariable& variable, std::span<const int16_t> words) {
@@ -169,17 +161,6 @@ WordRange changed_words(std::span<const int16_t> before, std::span<const int16_t
     while (end - begin >= kMany && same(end - kMany, kMany)) end -= kMany;
     while (begin < end && same(end - 1, 1)) --end;
     return {begin, end};
-}
-
-std::span<const RecordedVariable> touched(std::span<const RecordedVariable> variables,
-                                          WordRange words) {
-    const auto first = std::ranges::partition_point(variables, [&](const RecordedVariable& one) {
-        return size_t{one.address} + one.size <= words.begin;
-    });
-    const auto last =
-        std::partition_point(first, variables.end(),
-                             [&](const RecordedVariable& one) { return one.address < words.end; });
-    return {first, last};
 }
 
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,

@@ -64,16 +64,15 @@ struct RecordedVariable {
     uint16_t size = 0;
 };
 using RecordedVariables = std::vector<RecordedVariable>;
-void sort_by_address(RecordedVariables& variables);
 // Words of a node, from one to another.
 struct WordRange {
     size_t begin = 0, end = 0;
+    bool touches(const RecordedVariable& one) const {
+        return one.address < end && size_t{one.address} + one.size > begin;
+    }
 };
 // From the first that is another than before to the last; there are as many as before.
 WordRange changed_words(std::span<const int16_t> before, std::span<const int16_t> now);
-// Of variables in the order of their addresses, none of which share a word: those with words there.
-std::span<const RecordedVariable> touched(std::span<const RecordedVariable> variables,
-                                          WordRange words);
 // Whether it is in both, and not the same.
 bool has_changed(const RecordedVariable& variable, std::span<const int16_t> before,
                  std::span<const int16_t> now);

@@ -40,23 +40,13 @@ TEST(ChangedWords, OfFewWordsAreFound) {
     EXPECT_EQ(range.end, 2u);
 }
 
-TEST(TouchedVariables, AreThoseWithAWordInTheRange) {
-    RecordedVariables variables;
-    variables.emplace_back("late", 7, 1);
-    variables.emplace_back("list", 1, 4);  // 1 to 4
-    variables.emplace_back("id", 0, 1);
-    variables.emplace_back("none", 5, 0);
-    variables.emplace_back("speed", 5, 2);
-    sort_by_address(variables);
-    const auto names = [&](size_t begin, size_t end) {
-        std::string text;
-        for (const RecordedVariable& one : touched(variables, {begin, end})) text += one.key;
-        return text;
-    };
-    EXPECT_EQ(names(0, 1), R"("id":)");
-    EXPECT_EQ(names(4, 5), R"("list":)");
-    EXPECT_EQ(names(6, 8), R"("speed":"late":)");
-    EXPECT_EQ(names(8, 20), "");
+TEST(WordRange, TouchesAVariableWithAWordInIt) {
+    const RecordedVariable list("list", 1, 4);  // 1 to 4
+    EXPECT_FALSE((WordRange{0, 1}.touches(list)));
+    EXPECT_TRUE((WordRange{0, 2}.touches(list)));
+    EXPECT_TRUE((WordRange{4, 5}.touches(list)));
+    EXPECT_FALSE((WordRange{5, 20}.touches(list)));
+    EXPECT_FALSE((WordRange{2, 2}.touches(RecordedVariable("none", 2, 0))));
 }
 
 TEST(FormatVariables, WritesListsThatEndWithZeros) {

@@ -40,7 +40,6 @@ void BusRecorder::described(Time at, const debug::NodeView& node) {
     for (const aesl::VariablePlace& one : debug::variables_of(node)) {
         known.variables.emplace_back(one.name, one.address, one.size);
     }
-    sort_by_address(known.variables);
     known.words.resize(node.target->variables_size);
     known.known.resize(known.words.size());
     const std::string file = std::string(kNodesFolder) + label + ".json";
@@ -97,8 +96,8 @@ void BusRecorder::variables(Time at, const wire::Frame& frame) {
     };
     std::vector<const RecordedVariable*> told;
     std::vector<const RecordedVariable*> changed;
-    for (const RecordedVariable& one : touched(node.variables, {begin, end})) {
-        if (!is_known(one, node.known)) continue;
+    for (const RecordedVariable& one : node.variables) {
+        if (!WordRange{begin, end}.touches(one) || !is_known(one, node.known)) continue;
         if (!is_known(one, was_known)) {
             told.push_back(&one);
         } else if (has_changed(one, before, node.words)) {

@@ -278,7 +278,6 @@ void Recorder::learn_variables(Node& node) {
             node.variables.emplace_back(one.name, one.address, one.size);
         }
     }
-    sort_by_address(node.variables);
     node.named = 0;
     for (const RecordedVariable& one : node.variables) {
         node.named = std::max(node.named, size_t{one.address} + one.size);
@@ -294,13 +293,11 @@ void Recorder::variables(Node& node, Time at, bool all) {
     const bool picture = all || !node.pictured || words.size() != node.words.size();
     // As bytes: nearly always nothing has changed.
     if (!picture && std::ranges::equal(words, node.words)) return;
+    const WordRange changed = picture ? WordRange{} : changed_words(node.words, words);
     told_.clear();
-    if (picture) {
-        for (const RecordedVariable& one : node.variables) told_.push_back(&one);
-    } else {
-        const WordRange changed = changed_words(node.words, words);
-        for (const RecordedVariable& one : touched(node.variables, changed)) {
-            if (has_changed(one, node.words, words)) told_.push_back(&one);
+    for (const RecordedVariable& one : node.variables) {
+        if (picture || (changed.touches(one) && has_changed(one, node.words, words))) {
+            told_.push_back(&one);
         }
     }
     node.words.assign(words.begin(), words.end());

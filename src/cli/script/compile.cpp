@@ -21,13 +21,18 @@
 #include "session/diagnostic_text.hpp"
 #include "session/known_nodes.hpp"
 #include "session/script_file.hpp"
+#include "serve/project/open_text.hpp"
+#include "trial/test_file.hpp"
 
 namespace vagus::cli {
 namespace {
 
-// How names of files end that are never an output of this verb.
-constexpr std::string_view kNeverOutput[] = {
-    ".aesl", ".mcap", ".plan.json", ".world.json", ".toolbox.json", ".test.json", "vagus.json"};
+// A file of this name is never an output of this verb.
+bool is_source_or_recording(std::string_view path) {
+    const std::string kind = serve::kind_of_file(path);
+    const bool is_source = kind != "picture" && kind != "text" && kind != "other";
+    return is_source || path.ends_with(trial::kTestEnding) || path.ends_with(".mcap");
+}
 
 struct Options {
     std::string file;
@@ -191,10 +196,8 @@ Status check_out(const Options& options) {
         return std::filesystem::equivalent(options.out, path, error);
     };
     const bool is_read = is_out(options.file) || std::ranges::any_of(options.node_files, is_out);
-    const bool is_kept = std::filesystem::exists(options.out, error) &&
-                         std::ranges::any_of(kNeverOutput, [&](std::string_view end) {
-                             return options.out.ends_with(end);
-                         });
+    const bool is_kept =
+        std::filesystem::exists(options.out, error) && is_source_or_recording(options.out);
     if (!is_read && !is_kept) return Status::done();
     return Error{
         Code::Refused,

@@ -24,8 +24,8 @@ export class Orders {
 
   /**
    * Sends once what was asked for before has been sent and `ready` is there, with the deadline of now;
-   * gives what `send` gives, or null if Stop was pressed meanwhile. Throws if somebody else pressed it or the connection was
-   * lost meanwhile, and what `ready` and `send` throw.
+   * gives what `send` gives, or null if Stop was pressed meanwhile. Throws if somebody else pressed it
+   * or the connection was lost meanwhile, and what `ready` and `send` throw.
    */
   async ask<T, R>(
     ready: Promise<T>,

@@ -314,8 +314,10 @@ function drawings(page, updates) {
   }, updates);
 }
 
-// Rendering is counted, not timed: what did not change is not drawn. How many pieces of work are long is a figure: it
-// depends on the computer, and on what else it does.
+/** So often it may be counted, and the least counts: what else the computer does only adds. */
+const kStretches = 5;
+
+// Rendering is counted, not timed: what did not change is not drawn, and few pieces of work are long.
 for (const changing of [10, 100])
   test(
     `a hundred robots, ${changing} of them change five times a second`,
@@ -324,12 +326,17 @@ for (const changing of [10, 100])
       const { tiles, does } = handsOn(page);
       await does('r100', 'running');
       assert.equal(await tiles.count(), 100);
-      const { long, drawn } = await drawings(page, 60);
       const changed = Array.from({ length: changing }, (_, at) => `r${at + 1}`);
-      const others = drawn.filter((name) => !changed.includes(name));
-      assert.deepEqual(others, [], 'tiles of robots that did not change were drawn');
-      assert.ok(drawn.length >= changing / 2, `drawn: ${drawn}`);
-      console.log(`figure: pieces of work over 50 ms in 60 updates of 100 tiles: ${long}`);
+      let least = Infinity;
+      for (let stretch = 0; stretch < kStretches && least > 12; stretch++) {
+        const { long, drawn } = await drawings(page, 60);
+        const others = drawn.filter((name) => !changed.includes(name));
+        assert.deepEqual(others, [], 'tiles of robots that did not change were drawn');
+        assert.ok(drawn.length >= changing / 2, `drawn: ${drawn}`);
+        least = Math.min(least, long);
+      }
+      console.log(`figure: pieces of work over 50 ms in 60 updates of 100 tiles: ${least}`);
+      assert.ok(least <= 12, `${least} pieces of work over 50 ms in 60 updates`);
     },
   );
 

@@ -18,10 +18,10 @@
 #include "cli/output.hpp"
 #include "cli/script/compile_json.hpp"
 #include "cli/verbs.hpp"
+#include "serve/project/open_text.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/known_nodes.hpp"
 #include "session/script_file.hpp"
-#include "serve/project/open_text.hpp"
 #include "trial/test_file.hpp"
 
 namespace vagus::cli {

@@ -172,6 +172,7 @@ fleet::Shown RobotCommands::shown() const {
     if (!refused_.empty()) add(refused_);
     bool runs = false, away = false;
     for (const session::NodeState& node : robot_.session->nodes()) {
+        if (!node.name.empty()) shown.nodes.push_back(node.name);
         const debug::NodeView* const view = robot_.session->network().node(node.id);
         const bool is_away = view != nullptr && !view->connected;
         if (is_away) add(node.name + " is away");

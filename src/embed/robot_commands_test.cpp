@@ -176,6 +176,7 @@ TEST_F(RobotCommandsTest, ALoopThatNoEventEndsIsAFaultAtItsLine) {
     EXPECT_EQ(state(), "running");
     run_->step(200ms);
     const fleet::Shown shown = run_->commands(0).shown();
+    EXPECT_THAT(shown.nodes, ElementsAre("thymio-II"));
     EXPECT_EQ(shown.state, "fault");
     EXPECT_THAT(shown.problems, ElementsAre(testing::MatchesRegex(
                                     "thymio-II: s.aesl:[345]: what it does at an event does not "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 
@@ -186,26 +187,44 @@ void Member::publish_answer(const Command& command, const Answer& answer) {
 // ---- what it shows ----
 
 void Member::publish_description() {
+    description_news_ = false;
     act(post_of(Kind::Description, "", options_.description));
+}
+
+void Member::publish_version() {
     if (version_) act(post_of(Kind::Version, "", *version_));
 }
 
 void Member::deployed(const Version& version) {
     version_ = version;
-    if (standing_ == Standing::Holding) act(post_of(Kind::Version, "", version));
+    if (standing_ == Standing::Holding) publish_version();
 }
 
 void Member::show(const Shown& shown, Time now) {
     now_ = now;
     if (shown == shown_) return;
     if (shown.state != shown_.state || shown.actor != shown_.actor) since_ = clock();
+    if (shown.nodes != shown_.nodes) show_nodes(shown.nodes);
     shown_ = shown;
     state_news_ = true;
+}
+
+void Member::show_nodes(const std::vector<std::string>& nodes) {
+    std::vector<std::string> names;
+    for (const std::string& node : nodes) {
+        const bool fits = names.size() < kNodesMax && is_name(node);
+        if (fits && !contains(names, node)) names.push_back(node);
+    }
+    std::vector<std::string>& told = options_.description.nodes;
+    description_news_ = description_news_ || names != told;
+    told = std::move(names);
 }
 
 void Member::publish_state() {
     const Duration wait = state_news_ ? kStateEveryMin : kStateEveryMax;
     if (now_ < state_at_ + wait) return;
+    // Nodes may come and go as often as a state may change.
+    if (description_news_) publish_description();
     state_news_ = false;
     state_at_ = now_;
     act(post_of(Kind::State, "",

@@ -41,10 +41,12 @@ struct MemberOptions {
 Description description_of(const ProjectPart& part, std::string_view project,
                            std::string_view plan);
 
-// What is shown of the robot: its state without what the member itself adds.
+// What is shown of the robot: its state without what the member itself adds, and its nodes, which
+// its description tells. Those of names that no message can have, and of more than kNodesMax nodes,
+// are left out.
 struct Shown {
     std::string state = "stopped", actor = {};
-    std::vector<std::string> problems = {};
+    std::vector<std::string> problems = {}, nodes = {};
     friend bool operator==(const Shown&, const Shown&) = default;
 };
 
@@ -91,7 +93,7 @@ public:
     // A script of the robot has emitted it. What came from the fleet is not told here. The number
     // that it has in the fleet; 0: it is not sent.
     int64_t emitted(const std::string& event, const std::vector<int16_t>& args, Time now);
-    // As it is now; told when it changes, and from time to time.
+    // As it is now; told when it changes, and the state from time to time.
     void show(const Shown& shown, Time now);
     // A variable that the project lists under `tell` has these values.
     void changed(const std::string& node, const std::string& name, std::vector<int16_t> values);
@@ -149,6 +151,8 @@ private:
     Told::iterator remember(const std::string& id);
     void publish_answer(const Command& command, const Answer& answer);
     void publish_description();
+    void publish_version();
+    void show_nodes(const std::vector<std::string>& nodes);
     void publish_state();
     void publish_variables();
     void send_events();
@@ -157,7 +161,7 @@ private:
     void act(MemberAction action) { actions_.push_back(std::move(action)); }
     int64_t clock() const { return now_.count() / 1000; }
 
-    const MemberOptions options_;
+    MemberOptions options_;  // but for the nodes in its description, as they were given
     std::vector<MemberAction> actions_;
     Time now_{};
 
@@ -179,7 +183,7 @@ private:
 
     Shown shown_;
     int64_t since_ = 0;
-    bool state_news_ = true;
+    bool state_news_ = true, description_news_ = false;
     Time state_at_{};  // when it was told last
     std::map<std::pair<std::string, std::string>, Telling> telling_;
     // Heard before the name was ours: the broker gives what waited for us as soon as we are there.

@@ -96,6 +96,7 @@ void Member::claim() {
     act(connection(kOnline));
     act(Subscribe{filters_of_work()});
     publish_description();
+    publish_version();
     for (auto& [place, telling] : telling_) telling.news = true;
     state_at_ = now_ - kStateEveryMax;
     say("note", fmt::format("fleet: this robot is \"{}\" of the fleet \"{}\"", options_.robot,

@@ -107,6 +107,38 @@ TEST(MemberName, AFreeNameIsTakenWhenItsOwnQuestionComesBack) {
     EXPECT_EQ(c.published<State>().size(), 1u);
 }
 
+TEST(MemberShows, ItsNodesInItsDescription) {
+    MemberCase c;
+    c.hold();
+    // Two of one name are one word for whoever sets a variable; none can be longer than a name.
+    c.member.show({.nodes = {"thymio-II", "arm", "thymio-II", "", std::string(65, 'x')}}, c.now);
+    c.tick(kStateEveryMin);
+    ASSERT_EQ(c.published<Description>().size(), 1u);
+    EXPECT_EQ(c.published<Description>()[0].nodes, (Texts{"thymio-II", "arm"}));
+    EXPECT_EQ(c.published<Description>()[0].project, "Alarm");
+    // Told again when they change, not with each state.
+    c.member.show({.state = "running", .nodes = {"thymio-II", "arm"}}, c.now);
+    c.tick(c.now + kStateEveryMin);
+    c.tick(c.now + kStateEveryMax);
+    EXPECT_EQ(c.published<Description>().size(), 1u);
+    c.member.show({.state = "running", .nodes = {"thymio-II"}}, c.now);
+    c.tick(c.now + kStateEveryMin);
+    ASSERT_EQ(c.published<Description>().size(), 2u);
+    EXPECT_EQ(c.published<Description>()[1].nodes, Texts{"thymio-II"});
+}
+
+TEST(MemberShows, NoMoreNodesThanADescriptionHolds) {
+    MemberCase c;
+    std::vector<std::string> nodes;
+    for (size_t i = 0; i <= kNodesMax; i++) nodes.push_back("n" + std::to_string(i));
+    c.hold();
+    c.member.show({.nodes = nodes}, c.now);
+    c.tick(kStateEveryMin);
+    ASSERT_EQ(c.published<Description>().size(), 1u);
+    EXPECT_EQ(c.published<Description>()[0].nodes.size(), 128u);
+    EXPECT_EQ(c.published<Description>()[0].nodes.back(), "n127");
+}
+
 TEST(MemberName, OneThatAnswersKeepsIt) {
     MemberCase c;
     c.hear(Connected{});

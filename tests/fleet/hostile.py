@@ -107,6 +107,7 @@ class Killed(Case):
         self.wait_state("r1", "running")
         robot = self.states()["r1"]
         self.assertEqual((robot["connection"]["state"], robot["description"]["groups"]), ("online", ["red"]))
+        wait_until("its nodes were never told", lambda: self.states()["r1"]["description"]["nodes"] == ["thymio-II"])
 
     def test_the_keeper_publishes_again_what_the_broker_has_lost(self):
         self.init("boss", *(f"w{i}" for i in range(4)))

@@ -99,6 +99,7 @@ class Commands(Lesson):
         self.is_told("s2", "thymio-II.go", 0)
         self.assertRegex(self.refused("set", "s1", "thymio-II.goo", 1), r"s1: not done: .*goo.*go")
         self.assertRegex(self.refused("tell", "s1", "thymio-II.nothing"), r"s1: not done: .*nothing")
+        wait_until("its nodes were never told", lambda: self.states()["s1"]["description"]["nodes"] == ["thymio-II"])
         self.assertIn("s1: not done: no plan runs; name the node", self.refused("set", "s1", "n", 1))
         self.assertRegex(self.refused("identify", "s1"), r"s1: not done: .*identify")
         self.assertIn("s1: not done: no plan runs", self.refused("raise", "s1", "watch", "Seen"))

@@ -66,6 +66,12 @@ test(
     await button('Continue').click();
     await reads(report, /r2: it is not paused/);
     await button('Set a variable…').click();
+    // What the robot tells of its nodes is suggested.
+    await until('its node is suggested', async () => {
+      const suggested = page.locator('.forder datalist option');
+      const names = await suggested.evaluateAll((all) => all.map((one) => one.getAttribute('value')));
+      return names.join() === 'thymio-II.';
+    });
     await type('thymio-II.go');
     await press('Tab');
     await type('1');

@@ -96,6 +96,16 @@ std::vector<DescribedNode> Target::described() const {
     return found;
 }
 
+std::vector<std::string> Target::names_of_nodes() const {
+    std::vector<std::string> names;
+    if (!network_) return names;
+    for (const debug::NodeId node : network_->nodes()) {
+        const debug::NodeView* view = network_->node(node);
+        if (view->described) names.push_back(view->name);
+    }
+    return names;
+}
+
 std::optional<aesl::Target> Target::target_of(const std::string& name, uint16_t id) const {
     return target_among(described(), name, id);
 }

@@ -143,6 +143,7 @@ public:
     const std::string& target() const { return target_; }
     // Nodes that have told what they are.
     std::vector<DescribedNode> described() const;
+    std::vector<std::string> names_of_nodes() const;  // of these
     // What a live node is, for compiling; nothing if it is not there.
     std::optional<aesl::Target> target_of(const std::string& name, uint16_t id) const;
 

@@ -20,7 +20,7 @@ void Bytecode::notice(vm::Notice notice) {
     if (notice == vm::Notice::Reset) cells_.clear();
 }
 
-const Cells& Bytecode::cells(uint16_t variables_size, std::span<const uint16_t> breakpoints) {
+const Cells& Bytecode::cells_for(uint16_t variables_size, std::span<const uint16_t> breakpoints) {
     if (!cells_.empty() && std::ranges::equal(breakpoints, breakpoints_)) return cells_;
     breakpoints_.assign(breakpoints.begin(), breakpoints.end());
     cells_ = decode(words_, variables_size, breakpoints_);

@@ -40,11 +40,17 @@ public:
     void notice(vm::Notice notice);
 
     // For run(). The cells stay until the next notice or load, or other breakpoints.
-    const Cells& cells(uint16_t variables_size, std::span<const uint16_t> breakpoints);
+    const Cells& cells(uint16_t variables_size, std::span<const uint16_t> breakpoints) {
+        const bool without = breakpoints.empty() && breakpoints_.empty();
+        if (without && !cells_.empty()) return cells_;
+        return cells_for(variables_size, breakpoints);
+    }
     // Bytes beside the words themselves.
     size_t decoded_bytes() const { return cells_.capacity() * sizeof(Cell); }
 
 private:
+    const Cells& cells_for(uint16_t variables_size, std::span<const uint16_t> breakpoints);
+
     std::vector<uint16_t> words_;
     Cells cells_;                        // empty: to be made
     std::vector<uint16_t> breakpoints_;  // for which they were made

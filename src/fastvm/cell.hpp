@@ -54,7 +54,7 @@ constexpr int kStackMax = 15;
 // The cells of words 0 … n - 1, then one more, which leaves.
 using Cells = std::vector<Cell>;
 
-// One stretch of a run. The last three are filled in by leave().
+// One stretch of a run. The last four are filled in at its end; `over`: the event ended.
 struct Context {
     vm::Vm& vm;
     const Cell* cells;
@@ -65,6 +65,7 @@ struct Context {
     const Cell* cell = nullptr;
     int16_t* top = nullptr;
     int left = 0;
+    bool over = false;
 };
 
 // Where a word leads that nobody has checked before the run; other targets were checked when the

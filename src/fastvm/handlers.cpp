@@ -100,7 +100,7 @@ void store_to_array(const Cell* cell, int16_t* top, int16_t* variables, int left
 }
 
 void end_event(const Cell* cell, int16_t* top, int16_t*, int left, Context& context) {
-    context.vm.flags &= static_cast<uint16_t>(~wire::kFlagActive);
+    context.over = true;
     return leave(cell, top, left, context);
 }
 

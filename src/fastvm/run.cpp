@@ -25,7 +25,21 @@ int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
     enter(cell_at(context, vm.pc), config.stack + vm.depth, config.variables, most, context);
     vm.pc = static_cast<uint16_t>(context.cell - cells.data());
     vm.depth = static_cast<uint16_t>(context.top - config.stack);
+    if (context.over) vm.flags &= static_cast<uint16_t>(~(wire::kFlagActive | wire::kFlagRunning));
     return most - context.left;
+}
+
+// Goes on until the event is over, or `limit`. `done`: what has been executed of it.
+[[gnu::noinline]] int run_on(vm::Vm& vm, const Cells& cells, int done, int limit) {
+    // A pause is at a breakpoint, where the machine still counts as running.
+    while (done < limit && vm::is_active(vm) && !vm::is_paused_in_event(vm)) {
+        vm.flags |= wire::kFlagRunning;
+        const int quick = run_stretch(vm, cells, limit - done);
+        done += quick;
+        if (quick == 0) done += vm::run(vm, 1);
+    }
+    if (!vm::is_paused_in_event(vm)) vm.flags &= static_cast<uint16_t>(~wire::kFlagRunning);
+    return done;
 }
 
 }  // namespace
@@ -35,16 +49,10 @@ uint16_t run(vm::Vm& vm, Bytecode& bytecode, uint16_t limit) {
     if (!vm::is_active(vm) || vm::is_paused_in_event(vm)) return vm::run(vm, limit);
     const Cells& cells =
         bytecode.cells(vm.config->variables_size, {vm.config->breakpoints, vm.breakpoint_count});
-    int done = 0;
-    while (done < limit && vm::is_active(vm)) {
-        vm.flags |= wire::kFlagRunning;
-        const int quick = run_stretch(vm, cells, limit - done);
-        done += quick;
-        if (quick == 0) done += vm::run(vm, 1);
-        // At a breakpoint, where the machine still counts as running.
-        if (vm::is_paused_in_event(vm)) return static_cast<uint16_t>(done);
-    }
-    vm.flags &= static_cast<uint16_t>(~wire::kFlagRunning);
+    // Most handlers end within one stretch.
+    vm.flags |= wire::kFlagRunning;
+    int done = run_stretch(vm, cells, limit);
+    if ((vm.flags & wire::kFlagRunning) != 0) done = run_on(vm, cells, done, limit);
     return static_cast<uint16_t>(done);
 }
 

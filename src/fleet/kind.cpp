@@ -45,7 +45,8 @@ constexpr std::array kDescription = {
     Field{"studio", T::Line, kMay, 0, 0, "",
           "address of the robot's own studio, without the token"},
     Field{"groups", T::Names, kMust, 0, kGroupsMax, "", ""},
-    Field{"nodes", T::Names, kMust, 0, kNodesMax, "", "of the robot, as they are called on its bus"},
+    Field{"nodes", T::Names, kMust, 0, kNodesMax, "",
+          "of the robot, as they are called on its bus"},
     Field{"send", T::Names, kMust, 0, kEventsMax, "", "events that it sends"},
     Field{"hear", T::Names, kMust, 0, kEventsMax, "", "events that it hears"}};
 

@@ -29,9 +29,8 @@ Call call_for(Json in, Workbench::Obeyed done) {
 }  // namespace
 
 fleet::Shown Workbench::shown() const {
-    fleet::Shown shown{.actor = run_.actor(),
-                       .problems = target_.problems(),
-                       .nodes = target_.names_of_nodes()};
+    fleet::Shown shown{
+        .actor = run_.actor(), .problems = target_.problems(), .nodes = target_.names_of_nodes()};
     const bool fault = target_.is_at_fault();
     for (const std::string& node : missing_nodes()) {
         shown.problems.push_back(node + " is not there");

@@ -13,6 +13,10 @@ namespace vagus::serve {
 namespace {
 
 constexpr const char* kNotYet = "not_yet";
+constexpr const char* kTaken = "taken";
+constexpr const char* kInterrupted =
+    "the robot was started again while it went back to the version before; see which version it "
+    "runs before you roll back again";
 
 Result<Packed> checked(const fleet::Want& want, const Result<std::string>& bytes) {
     if (!bytes.ok()) return bytes.error();
@@ -45,9 +49,10 @@ Wanted::Wanted(Deployments& deployments, Callbacks calls)
     : deployments_(deployments), call_(std::move(calls)), last_(read_last(call_.file)) {}
 
 void Wanted::want(const fleet::Want& want) {
-    const bool known = (last_ && last_->number == want.number && !under_way_) ||
-                       (under_way_ && under_way_->number == want.number);
-    if (known) return call_.tell(*last_);
+    const bool is_under_way = under_way_ && under_way_->number == want.number;
+    const bool is_done =
+        last_ && last_->number == want.number && !under_way_ && !was_interrupted(want);
+    if (is_under_way || is_done) return call_.tell(*last_);
     next_ = want;
     tick(now_);
 }
@@ -82,7 +87,7 @@ void Wanted::watch_health() {
     tell_at_ = now_ + fleet::kConditionToldEvery;
     if (health_->is_well()) {
         last_->healthy = "well";
-        keep();
+        keep_or_warn();
         call_.log("note", fmt::format("fleet: roll-out {}: {}", last_->number, last_->why));
         health_.reset();
     }
@@ -92,23 +97,38 @@ void Wanted::watch_health() {
 void Wanted::begin() {
     under_way_ = std::exchange(next_, std::nullopt);
     const fleet::Want want = *under_way_;
+    if (was_interrupted(want)) return told("refused", kInterrupted);
     // It has not got the version that others have: the one before is in force. Where the last wish
     // was to go back itself (it names no version), nothing is known of that.
     const bool is_back = last_ && !last_->sha256.empty() &&
                          (last_->result == "refused" || last_->result == "rolled_back");
-    last_ = fleet::Version{want.number, want.sha256, "taken", ""};
+    last_ = fleet::Version{want.number, want.sha256, kTaken, ""};
     health_.reset();
     stops_before_ = deployments_.stops();
     call_.tell(*last_);
     call_.log("note", fmt::format("fleet: roll-out {}: {}", want.number,
                                   want.back ? "back to the version before" : want.address));
     if (want.back && is_back) return told("started", "the version before is in force already");
-    if (want.back) {
-        return deployments_.back([this](const DeployOutcome& outcome) { over(outcome); });
-    }
+    if (want.back) return go_back();
     worked<vagus::Result<Packed>>(
         call_.work, [want, fetch = call_.fetch] { return checked(want, fetch(want.address)); },
         [this](const vagus::Result<Packed>& packed) { fetched(packed); });
+}
+
+// Going back twice leads to another version than going back once: that it was begun is on the disk
+// before anything is changed.
+void Wanted::go_back() {
+    if (const Status kept = keep(); !kept.ok()) {
+        return told("refused", fmt::format("{}; nothing was changed: it would go back once more "
+                                           "at its next start; free space on its disk",
+                                           kept.error().what));
+    }
+    deployments_.back([this](const DeployOutcome& outcome) { over(outcome); });
+}
+
+// The robot went back for that wish when it was started again, and it is not known how far it was.
+bool Wanted::was_interrupted(const fleet::Want& want) const {
+    return want.back && last_ && last_->number == want.number && last_->result == kTaken;
 }
 
 // A person's Stop counts more than a wish that came before it.
@@ -143,16 +163,20 @@ void Wanted::told(const std::string& result, const std::string& why) {
     last_ = fleet::Version{want.number, want.sha256, result,
                            std::string(utf8_prefix(visible_lines(why), fleet::kLineBytesMax))};
     if (result == "started" && call_.healthy()) last_->healthy = kNotYet;
-    keep();
+    keep_or_warn();
     call_.tell(*last_);
     call_.log("note", fmt::format("fleet: roll-out {}: {}{}", want.number, result,
                                   why.empty() ? "" : ": " + why));
 }
 
-void Wanted::keep() const {
+Status Wanted::keep() const {
     std::error_code failed;  // then it cannot be written either, and that is said
     std::filesystem::create_directories(std::filesystem::path(call_.file).parent_path(), failed);
-    const Status kept = write_file(call_.file, fleet::payload_of(*last_) + "\n");
+    return write_file(call_.file, fleet::payload_of(*last_) + "\n");
+}
+
+void Wanted::keep_or_warn() const {
+    const Status kept = keep();
     if (!kept.ok()) call_.log("warning", "fleet: " + kept.error().what);
 }
 

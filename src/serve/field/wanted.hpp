@@ -1,7 +1,7 @@
 // The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
 // fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
 // roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
-// of the last one is in PROJECT/.vagus/want.json. A project with a condition of its own is watched
+// of the last one is in PROJECT/.vagus/want.json, and that one to go back was begun. A project with a condition of its own is watched
 // from its start until that was true for long enough, and each change of what it lacks is told.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
@@ -51,11 +51,14 @@ public:
 
 private:
     void begin();
+    void go_back();
+    bool was_interrupted(const fleet::Want& want) const;
     void fetched(const vagus::Result<Packed>& packed);
     void send(const std::shared_ptr<const Packed>& packed, size_t file);
     void over(const DeployOutcome& outcome);
     void told(const std::string& result, const std::string& why);
-    void keep() const;
+    Status keep() const;
+    void keep_or_warn() const;
     void watch_health();
 
     Deployments& deployments_;

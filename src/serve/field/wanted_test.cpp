@@ -176,6 +176,42 @@ TEST_F(WantedTest, BackIsRefusedAgainWhereNothingIsBefore) {
     }
 }
 
+// It went back to version 0, and once more when it was started again.
+TEST_F(WantedTest, BackIsNotDoneWhereItCannotBeRemembered) {
+    wants(serve(7, "one"));
+    wants(serve(8, "two"));
+    const fs::path file = fs::path(project) / ".vagus" / "want.json";
+    fs::remove(file);
+    fs::create_directories(file);  // what stands for a full disk
+    wants({9, "", "", true});
+    EXPECT_EQ(opened, "two");
+    EXPECT_EQ(told.back(), "refused");
+    EXPECT_THAT(why, HasSubstr("nothing was changed"));
+    fs::remove(file);
+    wants({10, "", "", true});
+    EXPECT_EQ(opened, "one");
+    Wanted again(deployments, callbacks());
+    again.want({10, "", "", true});
+    EXPECT_EQ(opened, "one");
+}
+
+TEST_F(WantedTest, BackThatARestartInterruptedIsNotDoneOnceMore) {
+    wants(serve(7, "one"));
+    wants(serve(8, "two"));
+    wanted.want({9, "", "", true});  // begun; then the power is cut
+    EXPECT_EQ(told.back(), "taken");
+    Wanted again(deployments, callbacks());
+    for (int i = 0; i < 8; ++i) turn();
+    EXPECT_EQ(opened, "one");
+    again.want({9, "", "", true});
+    again.tick(now);
+    EXPECT_EQ(opened, "one");
+    EXPECT_EQ(told.back(), "refused");
+    EXPECT_THAT(why, HasSubstr("started again while it went back"));
+    again.want({9, "", "", true});
+    EXPECT_EQ(told.back(), "refused");
+}
+
 TEST_F(WantedTest, ItsConditionIsToldUntilItWasTrueForLongEnough) {
     healthy = fleet::Healthy{"battery > 20", 5s};
     wants(serve(7, "one"));

@@ -369,6 +369,13 @@ class System(unittest.TestCase):
             bus.send(0, 0, 99)
             self.assertEqual(struct.unpack("<h", bus.wait(0, source=4))[0], 100)
 
+    def test_what_a_node_saves_replaces_no_script(self):
+        script = self.folder / "keeper.aesl"
+        script.write_text(SAVED, encoding="utf-8")
+        told = run_vagus("node", "--flash", script, "--listen", "tcp:127.0.0.1:0", status=2)
+        self.assertIn("keeper.aesl: expected a file that is not there yet", told)
+        self.assertEqual(script.read_text(encoding="utf-8"), SAVED)
+
     def test_ctrl_c_ends_each_program_cleanly(self):
         switch, port = self.start_switch()
         node = self.start_node(port, 1)

@@ -1,10 +1,13 @@
 // `vagus node`: one software node on the network.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
 #include "aesl/node_file.hpp"
 #include "base/file.hpp"
+#include "cli/kept_file.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
@@ -111,7 +114,21 @@ bool NodeProgram::notice(const net::Event& event) {
     return event.kind != net::EventKind::Signal;
 }
 
+// The next program that a host saves would replace it.
+Status check_flash(const std::string& flash) {
+    if (!is_source_or_recording(flash)) return Status::done();
+    return Error{Code::Refused,
+                 fmt::format("--flash {}: expected a file that is not there yet, or that a node "
+                             "has saved its program in; a program that is saved would replace "
+                             "this one; name another file, as rover.abo, and load scripts with "
+                             "`vagus net TARGET load`",
+                             flash)};
+}
+
 int run_node(const NodeOptions& options) {
+    if (const Status good = check_flash(options.flash); !good.ok()) {
+        return complain(good.error(), kExitUsage);
+    }
     NodeProgram program;
     const Status made = program.make_node(options);
     if (!made.ok()) return complain(made.error(), kExitUsage);

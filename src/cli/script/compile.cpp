@@ -14,25 +14,17 @@
 #include "base/file.hpp"
 #include "base/nearest.hpp"
 #include "base/text.hpp"
+#include "cli/kept_file.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
 #include "cli/script/compile_json.hpp"
 #include "cli/verbs.hpp"
-#include "serve/project/open_text.hpp"
 #include "session/diagnostic_text.hpp"
 #include "session/known_nodes.hpp"
 #include "session/script_file.hpp"
-#include "trial/test_file.hpp"
 
 namespace vagus::cli {
 namespace {
-
-// A file of this name is never an output of this verb.
-bool is_source_or_recording(std::string_view path) {
-    const std::string kind = serve::kind_of_file(path);
-    const bool is_source = kind != "picture" && kind != "text" && kind != "other";
-    return is_source || path.ends_with(trial::kTestEnding) || path.ends_with(".mcap");
-}
 
 struct Options {
     std::string file;
@@ -196,9 +188,7 @@ Status check_out(const Options& options) {
         return std::filesystem::equivalent(options.out, path, error);
     };
     const bool is_read = is_out(options.file) || std::ranges::any_of(options.node_files, is_out);
-    const bool is_kept =
-        std::filesystem::exists(options.out, error) && is_source_or_recording(options.out);
-    if (!is_read && !is_kept) return Status::done();
+    if (!is_read && !is_source_or_recording(options.out)) return Status::done();
     return Error{
         Code::Refused,
         fmt::format("-o {}: {}; name another file for what is compiled, as blink.hex", options.out,

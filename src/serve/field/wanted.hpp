@@ -1,8 +1,9 @@
 // The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
 // fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
 // roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
-// of the last one is in PROJECT/.vagus/want.json, and that one to go back was begun. A project with a condition of its own is watched
-// from its start until that was true for long enough, and each change of what it lacks is told.
+// of the last one is in PROJECT/.vagus/want.json, and that going back was begun. A project with a
+// condition of its own is watched from its start until that was true for long enough, and each
+// change of what it lacks is told.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
 //     wanted.want(want);   // as often as it comes

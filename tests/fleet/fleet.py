@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tests/studio")]
 
 import projects  # noqa: E402
-from harness import GIVE_UP_AFTER, VAGUS, free_port, vagus, wait_until  # noqa: E402
+from harness import GIVE_UP_AFTER, Program, VAGUS, connect, free_port, vagus, wait_until  # noqa: E402
 
 FLEET = "lab"
 # Emits alarm when it is told to, and counts those that come.
@@ -292,6 +292,48 @@ class Rights(Case):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn(f"no connection to mqtts://localhost:{self.port}/lab", done.stdout)
 
+    def test_a_port_of_another_kind_is_named(self):
+        self.broker()
+        web, = [port for port in re.findall(r"(?m)^listener (\d+)$", (self.broker_folder / "mosquitto.conf").read_text(encoding="utf-8"))
+                if int(port) != self.port]
+        self.assertIn(f"what answers at port {web} does not speak MQTT; is that the port for WebSockets?",
+                      self.refused_at(f"mqtts://localhost:{web}/{FLEET}"))
+        self.assertIn("Does the broker want TLS? Then write mqtts://", self.refused_at(f"mqtt://localhost:{self.port}/{FLEET}", tls=False))
+
+    def test_a_port_without_tls_is_named(self):
+        self.init()
+        port = free_port()
+        configuration = self.folder / "plain.conf"
+        configuration.write_text(f"user root\nallow_anonymous true\nlistener {port} localhost\n", encoding="ascii")
+        with Program(shutil.which("mosquitto") or "/usr/sbin/mosquitto", "-c", configuration):
+            connect(port).close()
+            self.assertIn(f"what answers at port {port} does not speak TLS; does the broker want mqtt://?", self.refused_at(f"mqtts://localhost:{port}/{FLEET}"))
+
+    def refused_at(self, target, tls=True):
+        done = self.command(target, "list", *self.login("looker")[0 if tls else 2:], "--wait", 3)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        return done.stdout
+
+    def test_who_watches_is_told_that_the_broker_has_another_authority(self):
+        self.init()
+        old = self.folder / "old"
+        shutil.copytree(self.broker_folder, old)
+        broker = self.serve_broker()
+        watch = self.enterContext(vagus("fleet", self.target, "watch", "--tls-ca", old / "ca.crt", "--login", old / "looker.login"))
+        wait_until("it never connected", lambda: broker.running() and self.desk("list").returncode == 0)
+        broker.stop()
+        watch.wait_line(rf"^vagus: no connection to mqtts://localhost:{self.port}/lab: .*; trying again$")
+        for name in ("ca.crt", "ca.key", "broker.crt", "broker.key"):
+            (self.broker_folder / name).unlink()
+        self.init()
+        broker = self.serve_broker()
+        watch.wait_line(rf"TLS failed: the broker's certificate is not signed by {re.escape(str(old / 'ca.crt'))}")
+        broker.stop()
+        for name in ("ca.crt", "ca.key", "broker.crt", "broker.key"):
+            shutil.copy(old / name, self.broker_folder / name)
+        self.serve_broker()
+        watch.wait_line(r"^vagus: connected again$")
+
     def test_a_wrong_password_is_refused(self):
         self.broker("r1")
         wrong = self.folder / "wrong.login"
@@ -339,6 +381,44 @@ class Rights(Case):
         self.serve_broker()
         target = f"mqtts://127.0.0.2:{self.port}/{FLEET}"
         self.assertEqual(self.command(target, "list", *self.login("looker")).returncode, 0)
+
+    def test_init_replaces_no_authority_that_robots_trust(self):
+        """What is lost is made by what is left of it, or named."""
+        self.init()
+        kept = {name: (self.broker_folder / name).read_bytes() for name in ("ca.crt", "ca.key", "broker.crt", "broker.key")}
+        old = self.folder / "old.crt"
+        old.write_bytes(kept["ca.crt"])
+
+        def lose(*names):
+            for name, content in kept.items():
+                (self.broker_folder / name).write_bytes(content)
+            for name in names:
+                (self.broker_folder / name).unlink()
+        lose("ca.key")
+        self.init()
+        self.assertEqual((self.broker_folder / "ca.crt").read_bytes(), kept["ca.crt"])
+        refused = self.command("init", self.broker_folder, "--host", "127.0.0.2")
+        self.assertEqual(refused.returncode, 1, refused.stdout)
+        self.assertIn("ca.key is lost", refused.stdout)
+        lose("ca.crt", "ca.key")
+        refused = self.command("init", self.broker_folder)
+        self.assertEqual(refused.returncode, 1, refused.stdout)
+        self.assertIn("ca.crt and ca.key are lost, and broker.crt is signed by them", refused.stdout)
+        lose("ca.crt")
+        self.init()
+        self.assertEqual((self.broker_folder / "ca.key").read_bytes(), kept["ca.key"])
+        self.serve_broker()
+        for authority in (old, self.broker_folder / "ca.crt"):
+            done = self.command(self.target, "list", "--tls-ca", authority, "--login", self.broker_folder / "looker.login")
+            self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_a_lost_key_of_the_broker_keeps_its_names(self):
+        self.init()
+        self.assertEqual(self.command("init", self.broker_folder, "--host", "127.0.0.2").returncode, 0)
+        (self.broker_folder / "broker.key").unlink()
+        done = self.command("init", self.broker_folder)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"broker.crt is new, for the names .*IP:127\.0\.0\.2")
 
     def test_init_refuses_what_it_would_not_do(self):
         self.init()

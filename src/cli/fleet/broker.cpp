@@ -42,6 +42,7 @@ constexpr size_t kHostBytesMax = 253;  // of a name in DNS
 constexpr const char* kHostBytes =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_:";
 constexpr std::string_view kNamesKey = "subjectAltName=";  // in broker.ext
+constexpr const char* kNamesOfItself = "DNS:localhost,IP:127.0.0.1,IP:::1";
 // For one client: what is retained of the most robots, three messages of each; the records that a
 // keeper finds are fewer.
 constexpr size_t kQueuedMax = 3 * fleet::kRobotsMax;
@@ -144,13 +145,33 @@ private:
         return written;
     }
 
+    // Robots trust ca.crt: what is there of the authority stays, and what is lost of it is made by
+    // the rest where that is possible.
     Status make_authority() {
-        if (has("ca.crt") && has("ca.key")) return Status::done();
-        return openssl({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1",
-                        "-nodes", "-keyout", path("ca.key"), "-out", path("ca.crt"), "-days",
-                        std::to_string(kCertificateDays), "-subj",
-                        "/CN=Authority of a fleet of Vagus", "-addext",
-                        "keyUsage=critical,keyCertSign,cRLSign"});
+        if (has("ca.crt")) return Status::done();
+        if (has("ca.key")) return sign_authority({"-key", path("ca.key")});
+        if (has("broker.crt")) {
+            return Error{Code::Refused,
+                         fmt::format("{0}: ca.crt and ca.key are lost, and broker.crt is signed by "
+                                     "them; put them back, or delete broker.crt for another "
+                                     "authority, whose ca.crt every robot and observer needs",
+                                     options_.folder)};
+        }
+        return sign_authority({"-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1",
+                               "-nodes", "-keyout", path("ca.key")});
+    }
+
+    Status sign_authority(const std::vector<std::string>& key) {
+        std::vector<std::string> words = {"req", "-x509"};
+        words.insert(words.end(), key.begin(), key.end());
+        for (const std::string& word :
+             {std::string("-out"), path("ca.crt"), std::string("-days"),
+              std::to_string(kCertificateDays), std::string("-subj"),
+              std::string("/CN=Authority of a fleet of Vagus"), std::string("-addext"),
+              std::string("keyUsage=critical,keyCertSign,cRLSign")}) {
+            words.push_back(word);
+        }
+        return openssl(words);
     }
 
     // The configuration stays as it is, so a port that it does not have would be for nothing.
@@ -179,8 +200,10 @@ private:
                          "-out", path("broker.key")}));
             std::vector<std::string> hosts = options_.hosts;
             hosts.push_back(serve::host_name());
-            TRY(certify(alternative_names("DNS:localhost,IP:127.0.0.1,IP:::1", hosts)));
-            return false;
+            const bool was_there = has("broker.ext");  // one that was lost had these names
+            const std::string names = was_there ? TRY(certified_names()) : kNamesOfItself;
+            TRY(certify(alternative_names(names, hosts)));
+            return was_there;
         }
         if (options_.hosts.empty()) return false;
         const std::string before = has("broker.ext") ? TRY(certified_names()) : "";
@@ -211,6 +234,14 @@ private:
 
     // The certificate that is there is replaced as a whole, once there is another one.
     Status certify(const std::string& names) {
+        if (!has("ca.key")) {
+            return Error{Code::Refused,
+                         fmt::format("{}: ca.key is lost, and nothing else can sign a certificate "
+                                     "that robots trust; put it back, or delete ca.crt and "
+                                     "broker.crt for another authority, whose ca.crt every robot "
+                                     "and observer needs",
+                                     options_.folder)};
+        }
         TRY(openssl({"req", "-new", "-key", path("broker.key"), "-out", path("broker.csr"), "-subj",
                      "/CN=Broker of a fleet of Vagus"}));
         TRY(write_file(path("broker.ext.new"), fmt::format("{}{}\n", kNamesKey, names)));

@@ -241,6 +241,7 @@ int forget(FleetSession& session, const FleetCall& call) {
     session.wait_until([&] { return robots.contains(call.robot); }, wait_of(call));
     const auto found = robots.find(call.robot);
     if (found == robots.end()) {
+        if (!session.trouble().empty()) return complain(session.trouble());
         return complain("the broker knows no robot \"" + visible(call.robot) + "\"");
     }
     if (fleet::Operator::is_online(found->second)) {

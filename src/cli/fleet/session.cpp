@@ -1,6 +1,7 @@
 #include "cli/fleet/session.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/output.hpp"
 #include "net/end_signal.hpp"
@@ -44,9 +45,22 @@ Duration FleetSession::now() const {
     return net::wall_now();
 }
 
+// What is shown of robots is not true any more while the broker is gone. Each reason is said once;
+// before the first connection know_all() says it.
+void FleetSession::note(const fleet::LinkEvent& event) {
+    if (const auto* lost = std::get_if<fleet::Lost>(&event)) {
+        const bool is_news = std::exchange(lost_, lost->why) != lost->why;
+        if (was_connected_ && is_news) complain(lost->why + "; trying again");
+    } else if (std::get_if<fleet::Connected>(&event)) {
+        if (was_connected_ && !lost_.empty()) complain("connected again");
+        lost_.clear();
+        was_connected_ = true;
+    }
+}
+
 void FleetSession::turn() {
     for (const fleet::LinkEvent& event : link_->take()) {
-        if (const auto* lost = std::get_if<fleet::Lost>(&event)) lost_ = lost->why;
+        note(event);
         desk_->hear(event, now());
         event_(event);
     }

@@ -54,14 +54,18 @@ public:
     void publish(const fleet::Post& post) { link_->publish(post); }
     void subscribe(const std::vector<fleet::Filter>& filters) { link_->subscribe(filters); }
     Duration now() const;
+    // Why there is no connection; empty: there is one.
+    const std::string& trouble() const { return lost_; }
 
 private:
     FleetSession() = default;
     void turn();
+    void note(const fleet::LinkEvent& event);
 
     std::string fleet_;
     std::unique_ptr<fleet::Operator> desk_;
-    std::string lost_;  // the last trouble
+    std::string lost_;
+    bool was_connected_ = false;
     std::function<void(const fleet::LinkEvent&)> event_ = [](auto&) {};
     serve::Bell bell_;
     std::unique_ptr<serve::MosquittoLink> link_;  // ends before what its thread wakes

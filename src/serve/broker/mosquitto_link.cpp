@@ -54,8 +54,17 @@ std::string sentence_of(int result) {
     return result == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(result);
 }
 
-// The library does not say what is wrong with a certificate.
-std::string sentence_of_tls(const LinkOptions& options) {
+// What is said of a certificate that came and is not accepted; the library tells it in its log
+// alone, and not what is wrong with it.
+constexpr std::string_view kNotAccepted = "verif";  // certificate verify, host name verification
+
+std::string sentence_of_tls(const LinkOptions& options, bool not_accepted) {
+    if (!not_accepted) {
+        return fmt::format(
+            "what answers at port {} does not speak TLS; does the broker want "
+            "mqtt://?",
+            options.target.port);
+    }
     if (options.ca.empty()) {
         return "TLS failed: this computer does not trust the broker's certificate; name the "
                "authority that signed it, as --tls-ca ca.crt";
@@ -122,6 +131,7 @@ public:
         mosquitto_disconnect_v5_callback_set(library_, on_disconnect);
         mosquitto_message_v5_callback_set(library_, on_message);
         mosquitto_publish_v5_callback_set(library_, on_publish);
+        mosquitto_log_callback_set(library_, on_log);
     }
     ~Session() { mosquitto_destroy(library_); }
     Session(const Session&) = delete;
@@ -221,14 +231,21 @@ private:
         return false;
     }
     std::string why_of(int result) const {
-        if (result == MOSQ_ERR_TLS) return sentence_of_tls(link_.options());
+        if (result == MOSQ_ERR_TLS) return sentence_of_tls(link_.options(), not_accepted_);
+        if (result == MOSQ_ERR_PROTOCOL && !connected_) {
+            return fmt::format(
+                "what answers at port {} does not speak MQTT; is that the port for "
+                "WebSockets? Robots and this program need the other one, as 8883",
+                link_.options().target.port);
+        }
         const bool maybe_tls = result == MOSQ_ERR_CONN_LOST && !connected_;
         return sentence_of(result) + (maybe_tls && !link_.options().target.tls
                                           ? " Does the broker want TLS? Then write mqtts://"
                                           : "");
     }
 
-    static void on_connect(mosquitto*, void* self, int code, int, const mosquitto_property*) {
+    static void on_connect(mosquitto* library, void* self, int code, int,
+                           const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
         if (code != 0) {
             session.refused_ = fmt::format("refused: {}", mosquitto_reason_string(code));
@@ -238,6 +255,7 @@ private:
             return;
         }
         session.connected_ = true;
+        mosquitto_log_callback_set(library, nullptr);  // it writes a line for each message
         session.link_.give(fleet::Connected{});
     }
     static void on_disconnect(mosquitto*, void* self, int code, const mosquitto_property*) {
@@ -249,6 +267,10 @@ private:
             session.refused_ =
                 code >= kFirstFailure ? mosquitto_reason_string(code) : session.why_of(code);
         }
+    }
+    static void on_log(mosquitto*, void* self, int level, const char* text) {
+        const bool found = std::string_view(text).find(kNotAccepted) != std::string_view::npos;
+        if (level == MOSQ_LOG_ERR && found) static_cast<Session*>(self)->not_accepted_ = true;
     }
     static void on_publish(mosquitto*, void* self, int id, int code, const mosquitto_property*) {
         auto& session = *static_cast<Session*>(self);
@@ -271,6 +293,7 @@ private:
     Inside& link_;
     mosquitto* library_ = nullptr;
     bool connected_ = false;
+    bool not_accepted_ = false;  // the certificate of the broker
     std::string refused_, why_;
     std::map<int, uint64_t> numbers_;  // by the library's
 };

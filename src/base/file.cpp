@@ -2,7 +2,6 @@
 #include "base/file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include <optional>
 
 #include "base/lost_pages.hpp"
+#include "base/one_writer.hpp"
 
 namespace vagus {
 namespace {
@@ -201,6 +201,21 @@ Status write(const std::string& path, std::string_view content, Disk disk) {
     return failed;
 }
 
+// A pipe would hold up who writes for as long as nobody reads, and lines for a person would stand
+// between the bytes where standard output is that file, too.
+Status need_file(int descriptor, const std::string& path) {
+    struct stat found = {};
+    struct stat output = {};
+    if (::fstat(descriptor, &found) != 0) return failure(path, "written");
+    const bool is_pipe = S_ISFIFO(found.st_mode) || S_ISSOCK(found.st_mode);
+    const bool is_output = S_ISREG(found.st_mode) && ::fstat(STDOUT_FILENO, &output) == 0 &&
+                           output.st_dev == found.st_dev && output.st_ino == found.st_ino;
+    if (!is_pipe && !is_output) return Status::done();
+    return Error{Code::Refused, path + ": expected the name of a file, found " +
+                                    (is_pipe ? "a pipe" : "where standard output goes") +
+                                    "; name a file of its own"};
+}
+
 }  // namespace
 
 bool is_file_of_another_kind(const std::string& path, std::string_view begins) {
@@ -287,19 +302,16 @@ MappedFile::~MappedFile() {
 }
 
 Result<GrowingFile> GrowingFile::create(const std::string& path) {
+    if (path == "-") {
+        return Error{Code::Refused,
+                     "-: expected the name of a file, found that of standard output; name a file "
+                     "of its own (./- for one of this name)"};
+    }
     const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
     if (descriptor < 0) return failure(path, "written");
     GrowingFile file(path, descriptor);
-    // Bytes of two writers would be mixed up, and both files lost. It goes with the descriptor, so
-    // a writer that was killed holds nothing. A file system without locks refuses nobody.
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        return Error{Code::Refused, path +
-                                        ": another program is writing it; name another file, or "
-                                        "wait until that one has ended"};
-    }
-    struct stat found = {};
-    const bool is_regular = ::fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode);
-    if (is_regular && ::ftruncate(descriptor, 0) != 0) return failure(path, "written");
+    TRY(need_file(descriptor, path));
+    TRY(begin_to_write(descriptor, path));
     return file;
 }
 

@@ -64,6 +64,19 @@ TEST_F(FileTest, AFileThatGrowsHasOneWriter) {
     EXPECT_TRUE(GrowingFile::create(path("x")).ok());
 }
 
+// A recording into a pipe was cut off where the pipe was full, or held up its run.
+TEST_F(FileTest, AFileThatGrowsIsAFile) {
+    EXPECT_EQ(GrowingFile::create("-").error().what,
+              "-: expected the name of a file, found that of standard output; name a file of its "
+              "own (./- for one of this name)");
+    ASSERT_EQ(::mkfifo(path("p").c_str(), 0600), 0);
+    const int reader = ::open(path("p").c_str(), O_RDONLY | O_NONBLOCK);
+    EXPECT_EQ(GrowingFile::create(path("p")).error().what,
+              path("p") + ": expected the name of a file, found a pipe; name a file of its own");
+    ::close(reader);
+    EXPECT_TRUE(GrowingFile::create("/dev/null").ok());
+}
+
 TEST_F(FileTest, WhatIsCutOffAMappedFileReadsAsZeros) {
     constexpr size_t kBytes = 3u << 20;  // more than the system reads ahead
     ASSERT_TRUE(write_file(path("x"), std::string(kBytes, 'x')).ok());

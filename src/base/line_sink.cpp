@@ -13,6 +13,7 @@
 
 #include "base/file.hpp"
 #include "base/log_lines.hpp"
+#include "base/one_writer.hpp"
 #include "base/text.hpp"
 
 namespace vagus {
@@ -70,9 +71,9 @@ Result<LineSink> LineSink::open(const std::string& path, When when, std::string_
                                  "is written there begins with {}; name another file",
                                  path, begins)};
     }
-    const int flags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC;
-    sink.descriptor_ = ::open(path.c_str(), flags, 0666);
+    sink.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (sink.descriptor_ < 0) return failure(path);
+    TRY(begin_to_write(sink.descriptor_, path));
     sink.terminal_ = ::isatty(sink.descriptor_) == 1;
     return sink;
 }

@@ -123,6 +123,23 @@ TEST_F(LineSinkTest, AFileThatBeginsOtherwiseIsNotReplaced) {
     }
 }
 
+// Two runs that were traced into one file wrote over each other's lines.
+TEST_F(LineSinkTest, AFileHasOneWriter) {
+    {
+        LineSink first = std::move(LineSink::open(path("f"), When::AtOnce).value());
+        first.write("one\n");
+        EXPECT_EQ(LineSink::open(path("f"), When::AtOnce).error().what,
+                  path("f") +
+                      ": another program is writing it; name another file, or wait until that one "
+                      "has ended");
+        EXPECT_EQ(written(), "one\n");
+    }
+    EXPECT_TRUE(LineSink::open(path("f"), When::AtOnce).ok());
+    EXPECT_EQ(written(), "");
+    LineSink nowhere = std::move(LineSink::open("/dev/null", When::AtOnce).value());
+    EXPECT_TRUE(LineSink::open("/dev/null", When::AtOnce).ok());
+}
+
 TEST_F(LineSinkTest, AFullDiskIsSaidOnceAndKept) {
     LineSink sink = std::move(LineSink::open("/dev/full", When::AtOnce).value());
     EXPECT_TRUE(sink.state().ok());

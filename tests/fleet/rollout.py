@@ -98,6 +98,15 @@ class Rollout(Versions):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stdout, r'r1: failed: refused: .*vagus\.json:\d+: "condition" of "healthy": .*did you mean edition\?')
 
+    def test_what_is_wrong_with_the_certificate_of_the_version_is_told(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        done = self.deploy("r1", "--project", self.version(), "--listen", "127.0.0.2:0", "--host", "127.0.0.2")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("its certificate is not accepted: it is not for the name 127.0.0.2; name one that is", done.stdout)
+        self.assertEqual(self.state("r1"), "running")
+
     def test_a_robot_that_was_away_finds_it_when_it_is_back(self):
         self.broker("r1")
         first = self.joined("r1")

@@ -217,11 +217,12 @@ class Deploy(Robots):
         self.own = place
         robot = self.enterContext(Served(projects.thymio(place / "robot"), "--start", "--tls-cert", cert, "--tls-key", key))
         words = ("deploy", self.make(1), f"https://127.0.0.1:{robot.port}/", "--token-file", robot.folder / "data" / "token")
-        self.assertIn("certificate verify failed", run_vagus(*words, status=1))
+        self.assertIn("its certificate is not accepted: self-signed certificate; name who signed it, as --tls-ca ca.crt or --tls-cert",
+                      run_vagus(*words, status=1))
         other, _ = certificate(place, "other", "127.0.0.1")
-        self.assertIn("certificate verify failed", run_vagus(*words, "--tls-cert", other, status=1))
+        self.assertIn("its certificate is not accepted: self-signed certificate", run_vagus(*words, "--tls-cert", other, status=1))
         elsewhere, _ = certificate(place, "elsewhere", "127.0.0.2")
-        self.assertIn("certificate verify failed", run_vagus(*words, "--tls-cert", elsewhere, status=1))
+        self.assertIn("its certificate is not accepted: self-signed certificate", run_vagus(*words, "--tls-cert", elsewhere, status=1))
         self.assertEqual(run_vagus(*words, "--tls-cert", cert), "version 1 runs")
 
     def test_an_empty_folder_waits_for_its_first_project(self):

@@ -37,8 +37,12 @@ Result<Url> parse_url(const std::string& url) {
     return Error{Code::Refused, url + ": expected https, for it is not on this computer"};
 }
 
-awaitable<std::string> get(asio::io_context& io, asio::ssl::context& tls, Url url,
-                           size_t bytes_max) {
+struct Fetched {
+    std::string bytes;
+    std::string refused;  // why nothing was asked for; empty: it was
+};
+
+awaitable<Fetched> get(asio::io_context& io, asio::ssl::context& tls, Url url, size_t bytes_max) {
     const ServerAddress& server = url.server;
     Tcp::resolver resolver(io);
     const auto found =
@@ -47,7 +51,10 @@ awaitable<std::string> get(asio::io_context& io, asio::ssl::context& tls, Url ur
     tcp.expires_after(kFetchWithin);
     co_await tcp.async_connect(found, use_awaitable);
     Stream stream(std::move(tcp));
-    if (server.secure) co_await stream.connect_tls(tls, server.host);
+    if (server.secure) {
+        const auto why = co_await stream.connect_tls(tls, server.host);
+        if (why) co_return Fetched{"", *why};
+    }
     stream.expires_after(kFetchWithin);
     http::request<http::empty_body> asked(http::verb::get, url.path, 11);
     asked.set(http::field::host, fmt::format("{}:{}", server.host, server.port));
@@ -62,7 +69,7 @@ awaitable<std::string> get(asio::io_context& io, asio::ssl::context& tls, Url ur
             make_error_code(boost::system::errc::no_such_file_or_directory),
             std::to_string(answer.get().result_int()));
     }
-    co_return std::move(answer.get().body());
+    co_return Fetched{std::move(answer.get().body()), ""};
 }
 
 }  // namespace
@@ -78,7 +85,10 @@ Result<std::string> fetch(const std::string& url, const std::string& authority, 
         auto future =
             asio::co_spawn(io, get(io, tls, std::move(parsed), bytes_max), asio::use_future);
         io.run();
-        return future.get();
+        Fetched fetched = future.get();
+        if (fetched.refused.empty()) return std::move(fetched.bytes);
+        return Error{Code::Unavailable,
+                     fmt::format("{}: cannot be fetched: {}", url, fetched.refused)};
     } catch (const boost::system::system_error& failed) {
         return Error{Code::Unavailable,
                      fmt::format("{}: cannot be fetched: {}", url, failed.code().message())};

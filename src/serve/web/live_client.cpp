@@ -120,7 +120,10 @@ class LiveClient::Insides {
 public:
     Status connect(const ServerAddress& address, const std::string& name) {
         try {
-            run(meet(address));
+            const std::string refused = run(meet(address));
+            if (!refused.empty()) {
+                return Error{Code::Unavailable, fmt::format("{}: {}", authority(address), refused)};
+            }
         } catch (const boost::system::system_error& failed) {
             return Error{Code::Unavailable,
                          fmt::format("{}: no server of Vagus answers there: {}; is `vagus serve` "
@@ -172,7 +175,8 @@ private:
         return future.get();
     }
 
-    awaitable<void> meet(ServerAddress address) {
+    // Why the server's certificate is not accepted; empty: it is.
+    awaitable<std::string> meet(ServerAddress address) {
         Tcp::resolver resolver(io_);
         const auto found = co_await resolver.async_resolve(
             address.host, std::to_string(address.port), use_awaitable);
@@ -182,11 +186,13 @@ private:
         Stream stream(std::move(tcp));
         if (address.secure) {
             verify(address);
-            co_await stream.connect_tls(tls_, address.host);
+            const auto why = co_await stream.connect_tls(tls_, address.host);
+            if (why) co_return *why;
         }
         socket_.emplace(std::move(stream));
         prepare(*socket_);
         co_await socket_->async_handshake(authority(address), "/live", use_awaitable);
+        co_return std::string();
     }
 
     void verify(const ServerAddress& address) {

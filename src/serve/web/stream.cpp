@@ -1,7 +1,9 @@
 #include "serve/web/stream.hpp"
 
 #include <openssl/ssl.h>
+#include <openssl/x509_vfy.h>
 
+#include <boost/asio/redirect_error.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -45,6 +47,22 @@ private:
     Carrier carrier_;
 };
 
+// What OpenSSL found of a certificate, and how to fix it.
+std::string why_not_accepted(long found, const std::string& host) {
+    std::string why = "its certificate is not accepted: ";
+    switch (found) {
+        case X509_V_ERR_UNSPECIFIED:  // what the check of the name gives
+            return why + "it is not for the name " + host + "; name one that is";
+        case X509_V_ERR_CERT_HAS_EXPIRED:
+        case X509_V_ERR_CERT_NOT_YET_VALID:
+            return why + X509_verify_cert_error_string(found) +
+                   "; make another one, or set the clock of the computer that reads it";
+        default:
+            return why + X509_verify_cert_error_string(found) +
+                   "; name who signed it, as --tls-ca ca.crt or --tls-cert robot.crt";
+    }
+}
+
 using PlainLayer = LayerOf<beast::tcp_stream>;
 using SecureLayer = LayerOf<Secure>;
 
@@ -69,12 +87,21 @@ awaitable<TlsBegins> Stream::accept_tls(asio::ssl::context& context) {
     }
 }
 
-awaitable<void> Stream::connect_tls(asio::ssl::context& context, std::string host) {
+awaitable<std::optional<std::string>> Stream::connect_tls(asio::ssl::context& context,
+                                                          std::string host) {
     auto secure = std::make_unique<SecureLayer>(Secure(std::move(layer_->tcp()), context));
     secure->carrier().set_verify_callback(asio::ssl::host_name_verification(host));
     SSL_set_tlsext_host_name(secure->carrier().native_handle(), host.c_str());
-    co_await secure->carrier().async_handshake(asio::ssl::stream_base::client, use_awaitable);
+    SystemError failed;
+    co_await secure->carrier().async_handshake(asio::ssl::stream_base::client,
+                                               asio::redirect_error(use_awaitable, failed));
+    if (failed) {
+        const long found = SSL_get_verify_result(secure->carrier().native_handle());
+        if (found != X509_V_OK) co_return why_not_accepted(found, host);
+        throw boost::system::system_error(failed);
+    }
     layer_ = std::move(secure);
+    co_return std::nullopt;
 }
 
 void Stream::shut_down_sending() {

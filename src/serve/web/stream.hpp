@@ -17,6 +17,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace boost::asio::ssl {
@@ -52,8 +53,10 @@ public:
     // Meets a client on a port for TLS. Plain: it speaks without, and can be answered; Lost: it has
     // gone, or there was no agreement.
     boost::asio::awaitable<TlsBegins> accept_tls(boost::asio::ssl::context& context);
-    // Speaks TLS to the server `host` from now on. Throws boost::system::system_error.
-    boost::asio::awaitable<void> connect_tls(boost::asio::ssl::context& context, std::string host);
+    // Speaks TLS to the server `host` from now on; else why its certificate is not accepted. Throws
+    // boost::system::system_error where it is something else.
+    boost::asio::awaitable<std::optional<std::string>> connect_tls(
+        boost::asio::ssl::context& context, std::string host);
 
     // The limit of what is asked for from now on.
     void expires_after(std::chrono::nanoseconds time) { layer_->tcp().expires_after(time); }

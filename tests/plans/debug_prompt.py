@@ -87,6 +87,10 @@ breakpoint 2, paused at 1.000000, Count: wait (activation 5) is about to begin
         self.assertIn('"x" is not the number of a breakpoint', err)
         self.assertIn("which breakpoint? its number, or all", err)
 
+    def test_why_is_asked_of_the_recording(self):
+        _, err = self.debug("why actor step")
+        self.assertIn("why is asked of a recording, also while the run goes on: begin with --record run.mcap", err)
+
     def test_held_without_a_bus_says_so_and_refuses_what_it_does_not_know(self):
         out, err = self.debug("step", "held", "held step", "held go x", "held fly", "held drop", "held drop 4", "held drop all",
                               exit_code=3)

@@ -269,6 +269,12 @@ Status Prompt::obey(std::string_view line) {
         return Error{Code::BadInput, fmt::format("\"{}\" can be {} or {}; type more of it", word,
                                                  meant[0]->name, meant[1]->name)};
     }
+    // What has happened is asked where all of it is kept, also while that is still being written.
+    if (word == "why") {
+        return Error{Code::NotFound,
+                     "why is asked of a recording, also while the run goes on: begin with --record "
+                     "run.mcap, then, in another terminal: vagus why run.mcap QUESTION"};
+    }
     const std::string near = nearest(word, command_names());
     return Error{Code::NotFound,
                  fmt::format("there is no command \"{}\"; {}`help` lists them", word,

@@ -61,6 +61,7 @@ int run_command_line(int argc, const char* const* argv) {
     add_why_host(app, exit_code);
     add_log_host(app, exit_code);
     add_compare_host(app, exit_code);
+    add_keep_host(app, exit_code);
     add_try_host(app, exit_code);
     add_test_host(app, exit_code);
     add_turning_host(app, exit_code);

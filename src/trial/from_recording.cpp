@@ -125,7 +125,7 @@ std::string set_member(const std::string& word) {
     return json_quote(word.substr(0, equals)) + ": " + (plain ? value : json_quote(value));
 }
 
-std::vector<std::string> expectations(const Told& told, bool timed_out) {
+std::vector<std::string> expectations(const Told& told, bool timed_out, bool untouched) {
     std::vector<std::string> lines;
     if (!told.came.empty()) {
         const Told::Came& last = told.came.back();
@@ -133,6 +133,9 @@ std::vector<std::string> expectations(const Told& told, bool timed_out) {
         lines.push_back(fmt::format("{{ \"within\": {}, \"eventually\": {} }}",
                                     number(round_up(std::max(last.at, 0.1))),
                                     json_quote("actor == '" + last.actor + "'")));
+    }
+    if (untouched) {
+        lines.emplace_back(R"({ "always": "contact == 0", "help": "touches nothing" })");
     }
     if (timed_out) {
         lines.emplace_back("{ \"ends\": \"MaxTime\" }");
@@ -147,7 +150,7 @@ std::vector<std::string> expectations(const Told& told, bool timed_out) {
 
 // The keys of the test, a line each.
 std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft, bool timed_out,
-                                    const std::string& name) {
+                                    bool untouched, const std::string& name) {
     const record::RunFile& run = recorded.run;
     const std::string help = "Made from " + last_part(name) + ": trim it to what matters.";
     std::vector<std::string> members = {"\"format\": \"vagus-test/1\"",
@@ -166,7 +169,7 @@ std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft
         fmt::format("\"seeds\": [{0}, {0}]", recorded.seed.empty() ? "1" : recorded.seed));
     const double end = recorded.told.end;
     members.push_back("\"max_time\": " + number(timed_out ? end : round_up(end)));
-    for (const std::string& line : expectations(recorded.told, timed_out)) {
+    for (const std::string& line : expectations(recorded.told, timed_out, untouched)) {
         expect += (expect.empty() ? "\n    " : ",\n    ") + line;
     }
     members.push_back("\"expect\": [" + expect + "\n  ]");
@@ -192,7 +195,7 @@ std::vector<std::string> hints_of(const Recorded& recorded) {
 
 }  // namespace
 
-Result<Draft> draft_test(const mcap::Reader& reader) {
+Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options) {
     const Recorded recorded = TRY(read_recorded(reader));
     const Told& told = recorded.told;
     TRY(record::check_no_fleet(recorded.run, reader.name(),
@@ -219,7 +222,9 @@ Result<Draft> draft_test(const mcap::Reader& reader) {
     Draft draft{.plan = last_part(recorded.run.plan),
                 .world = beside(recorded.run.plan, recorded.run.world)};
     draft.text = "{";
-    for (const std::string& member : members_of(recorded, draft, timed_out, reader.name())) {
+    const bool untouched = options.untouched && !draft.world.empty();
+    for (const std::string& member :
+         members_of(recorded, draft, timed_out, untouched, reader.name())) {
         draft.text += (draft.text.size() > 1 ? ",\n  " : "\n  ") + member;
     }
     draft.text += "\n}\n";

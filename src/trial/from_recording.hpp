@@ -15,6 +15,10 @@ namespace vagus::trial {
 
 constexpr double kRoom = 1.25;  // times what it took then
 
+struct DraftOptions {
+    bool untouched = false;  // in a world: it expects, too, that nothing ever touches the robot
+};
+
 struct Draft {
     std::string text = {};                // of the test file
     std::string plan = {}, world = {};    // files that it names, as it names them
@@ -23,6 +27,6 @@ struct Draft {
 
 // The test is to lie beside its plan. A run that had not ended, or that a person ended, is one
 // whose time was over then. The Error says why there can be no test of it.
-Result<Draft> draft_test(const mcap::Reader& reader);
+Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options = {});
 
 }  // namespace vagus::trial

@@ -251,7 +251,7 @@ export const text = {
       'past.later': 'You are not looking back.',
       'past.stepAfter': 'You are not looking back.',
       'trace.save': 'No plan has run yet.',
-      'test.keep': 'No plan has run in the simulator yet.',
+      'test.keep': 'A test is of a plan, and none has run in the simulator yet.',
       'edit.': 'Open a script first.',
       'edit.find': 'Open a text first.',
       'edit.comment': 'Open a text first.',
@@ -324,8 +324,11 @@ export const text = {
     agoShort: (seconds: string) => `${seconds} s ago`,
     notRecorded: 'not recorded',
     dashed: 'Dashed: where it is now',
+    changed: '“Run from here” uses this change, from the instant that is shown on.',
     tested: (path: string) =>
       `${path} expects what this run did. Trim it, then run it (F5), also with other seeds.`,
+    testedAgain: (path: string) =>
+      `${path} expects what your files do from the start: this run was changed on its way, so it differs. Press F5 to run the test.`,
     saved: (path: string) => `The trace is in ${path}.`,
     noPlan: (path: string) =>
       `${path}: no plan of this project has the name of its plan, so only the timeline is shown.`,

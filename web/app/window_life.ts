@@ -168,13 +168,14 @@ function useAskForControl(): void {
   }, [studio, link, driver, clients]);
 }
 
-/** Problems opens by itself at the first error only. */
+/** Problems opens by itself at the first error only, and never before the timeline of who looks back. */
 function useProblemsOpen(): void {
   const studio = useStudio();
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
   const opened = useRef(false);
   useEffect(() => {
-    if (errors === 0 || opened.current) return;
+    // Who looks back needs the timeline that is there.
+    if (errors === 0 || opened.current || studio.past.at !== null) return;
     opened.current = true;
     revealPanel(studio.window, 'problems', false);
   }, [studio, errors]);

@@ -2,7 +2,7 @@
 // counts from there, and both runs can be run again.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { readdirSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { runTo } from './support/runs.mjs';
@@ -145,6 +145,39 @@ test('a run becomes a test, which passes', wall, async (studio) => {
     cwd: server.folder,
   });
   assert.match(said, /1 of 1 runs as expected/);
+});
+
+test('a run that was changed on its way is kept as a test that passes', wall, async (studio) => {
+  const { page, press, type, server, layout } = studio;
+  await runTo(studio, 'parallelToWall');
+  await back(studio, 1);
+  // So slow from its start the run comes nowhere in that time; this run has come there.
+  await layout('Draw');
+  await page.getByRole('group', { name: /^searchFirstWall, actor/ }).click();
+  await page.getByRole('tab', { name: 'Properties' }).click();
+  const speed = page.getByRole('region', { name: 'Properties' }).getByLabel('speed');
+  await speed.click();
+  await press('Control+a');
+  await type('5');
+  await press('Enter');
+  const notice = page.getByRole('status').filter({ hasText: '“Run from here” uses this change.' });
+  await notice.getByRole('button', { name: 'Run from here' }).click();
+  await gone(bar(page));
+  await seen(page.getByText('Paused by the breakpoint parallelToWall'));
+  await press('Shift+F5');
+  await page.getByRole('tab', { name: 'Timeline' }).click();
+  await page.getByRole('button', { name: 'Keep the run as a test' }).click();
+  await seen(page.getByText(/expects what your files do from the start/));
+  const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+    one.endsWith('WallFollow.test.json'),
+  );
+  assert.ok(path !== undefined);
+  // At 5 cm/s it does not come to the wall in that time: there is nothing but the way to it.
+  const kept = JSON.parse(readFileSync(join(server.folder, path), 'utf8'));
+  assert.deepEqual(kept.expect[0], { order: ['searchFirstWall'] });
+  assert.deepEqual(kept.expect[2], { always: 'contact == 0', help: 'touches nothing' });
+  await press('F5');
+  await reads(page.getByRole('tabpanel', { name: 'Tests' }), /1 run as expected/);
 });
 
 test('a recording is opened, looked back into, asked, and continued', wall, async (studio) => {

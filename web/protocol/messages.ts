@@ -1925,9 +1925,11 @@ export interface Commands {
     /** why not */
     why?: string;
   } };
-  /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, and how it ended. */
+  /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, that nothing touched the robot, and how it ended. The test is run once first, with the files as they are saved. */
   'test.keep': { in: Record<never, never>; out: {
     path: Path;
+    /** from the beginning, with these files, the run was another one: a run that was changed on its way is; the test expects what that one did */
+    differs: boolean;
   } };
   /** Saves all, then runs tests of behaviour with each of their seeds, in processes of their own, beside whatever runs. One set of tests at a time. */
   'tests.run': { in: {
@@ -2583,7 +2585,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'history.save': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
   'recording.list': { may: 'look', kind: 'look', out: { recordings: '[KeptRecording; 100]' } },
   'recording.open': { may: 'driver', kind: 'act', out: { again: 'bool?', why: 'line(1000)?' } },
-  'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path' } },
+  'test.keep': { may: 'driver', kind: 'edit', out: { path: 'Path', differs: 'bool' } },
   'tests.run': { may: 'driver', kind: 'act', out: {} },
   'tests.stop': { may: 'driver', kind: 'edit', out: {} },
   'why.ask': { may: 'look', kind: 'look', out: { chain: '[WhyLink; 1001]' } },

@@ -3,6 +3,7 @@
 #include "cli/host_verb.hpp"
 #include "cli/output.hpp"
 #include "serve/runner/compare_host.hpp"
+#include "serve/runner/keep_host.hpp"
 #include "serve/runner/log_host.hpp"
 #include "serve/runner/runner.hpp"
 #include "serve/runner/try_host.hpp"
@@ -31,6 +32,11 @@ void add_log_host(CLI::App& app, int& exit_code) {
 void add_compare_host(CLI::App& app, int& exit_code) {
     add_host_verb(app, {"compare-host", "two runs that are compared in the studio"},
                   serve::run_compare, exit_code);
+}
+
+void add_keep_host(CLI::App& app, int& exit_code) {
+    add_host_verb(app, {"keep-host", "a run of the studio that becomes a test"}, serve::run_keep,
+                  exit_code);
 }
 
 void add_try_host(CLI::App& app, int& exit_code) {

@@ -5,13 +5,11 @@
 
 #include <filesystem>
 
-#include "base/file.hpp"
 #include "base/seconds.hpp"
 #include "base/time.hpp"
-#include "mcap/reader.hpp"
 #include "record/past_run.hpp"
 #include "serve/edit/text_places.hpp"
-#include "trial/from_recording.hpp"
+#include "serve/runner/keep_host.hpp"
 #include "trial/test_file.hpp"
 
 namespace vagus::serve {
@@ -258,40 +256,47 @@ void Workbench::relive(const Call& call, const std::string& recording,
 namespace {
 
 constexpr size_t kTestNamesMax = 1000;  // NAME.test.json, NAME-2.test.json, …
+constexpr Duration kKeepWithin = 120s;  // then the one run of the test is not waited for any more
 
-Result<std::string> draft_of(const std::string& recording) {
-    const MappedFile file = TRY(MappedFile::open(recording));
-    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), recording));
-    return TRY(trial::draft_test(reader)).text;
+std::string test_beside(const std::string& plan, size_t number) {
+    constexpr std::string_view kPlanEnding = ".plan.json";
+    const std::string stem =
+        plan.ends_with(kPlanEnding) ? plan.substr(0, plan.size() - kPlanEnding.size()) : plan;
+    return numbered(stem, number) + std::string(trial::kTestEnding);
 }
 
 }  // namespace
+
+QuestionRules Workbench::keep_rules() const {
+    return {.program = places_.program,
+            .verb = "keep-host",
+            .kind = kKeepAsked,
+            .memory_max = kTestMemoryMax,
+            .within = kKeepWithin,
+            .look_every = kTestsLookEvery,
+            .refused = "failed",
+            .died = "the run was not kept as a test",
+            .late = fmt::format("to run this test once takes longer than {} s; use `vagus test "
+                                "new` in a terminal",
+                                seconds_of(kKeepWithin))};
+}
 
 void Workbench::keep_test(const Call& call) {
     const auto recording = recording_of_run();
     if (!recording.ok()) return call.fail(recording.error());
     const auto order = recorded_.find(recording.value());
     const std::string plan = order == recorded_.end() ? "" : order->second.plan;
-    run_.flush_recording([this, call, file = recording.value(), plan] {
-        worked<Result<std::string>>(
-            worker_.poster(), [file] { return draft_of(file); },
-            [this, call, plan](const Result<std::string>& text) {
-                if (!text.ok()) return call.fail(text.error());
-                if (!project_) return call.fail("unavailable", "the project was closed");
-                const auto path = new_test(project_->doc_of(plan), text.value());
-                if (!path.ok()) return call.fail(path.error());
-                call.done({{"path", path.value()}});
-            });
+    keeps_.ask(call, {{"test", test_beside(plan, 1)}}, [this, call, plan](const Json& kept) {
+        if (!project_) return call.fail("unavailable", "the project was closed");
+        const auto path = new_test(project_->doc_of(plan), kept["text"]);
+        if (!path.ok()) return call.fail(path.error());
+        call.done({{"path", path.value()}, {"differs", kept["differs"]}});
     });
 }
 
-// Beside its plan.
 Result<std::string> Workbench::new_test(const std::string& plan, const std::string& text) {
-    constexpr std::string_view kPlanEnding = ".plan.json";
-    const std::string stem =
-        plan.ends_with(kPlanEnding) ? plan.substr(0, plan.size() - kPlanEnding.size()) : plan;
     for (size_t i = 1; i <= kTestNamesMax; ++i) {
-        const std::string path = numbered(stem, i) + std::string(trial::kTestEnding);
+        const std::string path = test_beside(plan, i);
         if (files_.exists(path)) continue;
         TRY(files_.make(path, text));
         return path;

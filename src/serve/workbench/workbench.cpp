@@ -45,6 +45,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
       pairs_(desk, places.program, shown_run(),
              {.recording_at = [this](const std::string& path) { return recording_at(path); },
               .doc_of = [this](const std::string& file) { return doc_of(file); }}),
+      keeps_(keep_rules(), kKeepsAtOnce, shown_run()),
       compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
       tries_(desk, files_, places.program,
              {.toolboxes = [this] { return toolboxes_on_disk(); },
@@ -462,6 +463,7 @@ void Workbench::tick(Time now) {
     turnings_.tick(now);
     logs_.tick(now);
     pairs_.tick(now);
+    keeps_.tick(now);
     compares_.tick(now);
     tries_.tick(now);
     tests_.tick(now);
@@ -489,8 +491,8 @@ Time Workbench::next_tick(Time now) const {
         next = std::min(next, *world_edited_ + kWorldFollowsAfter);
     }
     next = std::min({next, whys_.next_tick(), turnings_.next_tick(), logs_.next_tick(),
-                     pairs_.next_tick(), compares_.next_tick(), tries_.next_tick(),
-                     tests_.next_tick()});
+                     pairs_.next_tick(), keeps_.next_tick(), compares_.next_tick(),
+                     tries_.next_tick(), tests_.next_tick()});
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

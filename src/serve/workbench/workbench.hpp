@@ -54,6 +54,7 @@ namespace vagus::serve {
 
 constexpr Duration kWorldFollowsAfter = 150ms;  // the last edit of its file, before a run has begun
 constexpr Duration kPictureEvery = 1s;          // the file of a ground is looked at
+constexpr size_t kKeepsAtOnce = 1;              // runs that become tests
 constexpr int kStepMs = 10;                     // of run.step, unless it says otherwise
 constexpr const char* kTheServer = "the server";  // who asks where nobody else does
 
@@ -228,6 +229,7 @@ private:
     void open_recording(const Call& call);
     static void not_again(const Call& call, const std::string& why);
     void relive(const Call& call, const std::string& recording, const record::PastRun& past);
+    QuestionRules keep_rules() const;
     void keep_test(const Call& call);
     Result<std::string> new_test(const std::string& plan, const std::string& text);
     void record_plan(const RunOrder& order);
@@ -321,6 +323,7 @@ private:
     TurningDesk turnings_;
     LogDesk logs_;
     PairDesk pairs_;
+    RunQuestions keeps_;  // runs that become tests
     CompareDesk compares_;
     TryDesk tries_;
     TestDesk tests_;

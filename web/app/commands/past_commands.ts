@@ -122,9 +122,10 @@ export function pastCommands(studio: Studio): Command[] {
       group,
       enabled: () => drives(studio) && simulated() && hasPlan(),
       async run() {
-        const { path } = await studio.send('test.keep', {});
+        const { path, differs } = await studio.send('test.keep', {});
         revealDoc(studio.window, path, null);
-        toast(studio.window, 'ok', text.past.tested(path));
+        if (differs) toast(studio.window, 'warning', text.past.testedAgain(path));
+        else toast(studio.window, 'ok', text.past.tested(path));
       },
     },
     {

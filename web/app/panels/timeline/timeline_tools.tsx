@@ -6,6 +6,8 @@ import {
   IconZoomIn,
   IconZoomOut,
 } from '@tabler/icons-react';
+import type { Studio } from '../../../core/studio';
+import { whyNot } from '../../commands/why_not';
 import { useCommands, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
@@ -15,6 +17,14 @@ import { EarlierRuns } from './earlier_runs';
 import { RobotChoice } from './robot_choice';
 import { words } from './words';
 import { followNewest, showAll, useTimelineView, zoomBy } from './view_store';
+
+/** A button that cannot be pressed says why. */
+function keepTip(studio: Studio): string {
+  const title = text.commands['test.keep'];
+  const keep = studio.registry.find('test.keep');
+  const why = keep === undefined ? '' : whyNot(studio, keep);
+  return why === '' ? title : `${title}: ${why}`;
+}
 
 const icon = { size: 14, stroke: kStroke };
 
@@ -58,7 +68,7 @@ export default function TimelineTools() {
       <Button
         kind="plain"
         small
-        tip={text.commands['test.keep']}
+        tip={keepTip(studio)}
         disabled={!registry.isEnabled('test.keep')}
         icon={<IconTestPipe {...icon} />}
         onClick={() => void registry.run('test.keep')}

@@ -33,7 +33,9 @@ export const planWords = {
   other: (name: string) => `${name} is running`,
   errors: 'Fix the errors first; a plan with errors does not start.',
   change: {
-    takes: 'Saving changes the running plan at once.',
+    takes:
+      'Saving changes the running plan at once. What is active keeps its values until it starts again.',
+    then: '“Run from here” uses this change. What is active at that instant keeps its values until it starts again.',
     cannot:
       'The running plan cannot take this change; it continues unchanged until the next start:',
     refused: 'The running plan could not take what was saved; it continues unchanged:',

@@ -3,8 +3,10 @@ import { useEffect, useRef, useState, type ReactNode } from 'react';
 import type { Doc, Topics } from '../../../protocol/messages';
 import { ChangeQuestion, type ChangeAnswer } from '../../../core/plan/change';
 import { partOf } from '../../../core/paths';
+import { usePastTime } from '../../past_hooks';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
+import { RunFromHere } from '../run_from_here';
 import { kStroke } from '../../parts/icons';
 import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
@@ -16,12 +18,23 @@ export function PlanChange({ doc }: { doc: Doc }) {
   const studio = useStudio();
   const drives = useDrives();
   const plan = useTopic('plan', {});
+  const past = usePastTime();
   const unsaved = useUnsaved(doc);
   const goes = plan?.state === 'running' || plan?.state === 'paused';
   const answer = useAnswer(doc, goes && unsaved, plan);
   if (!goes) return null;
   if (unsaved) {
     if (!answer?.runs) return null;
+    const differences = <ShowDifferences doc={doc} from="running" />;
+    if (past !== null) {
+      const end = (
+        <>
+          {differences}
+          <RunFromHere />
+        </>
+      );
+      return <Line good what={words.then} reasons={[]} end={end} />;
+    }
     const can = answer.reasons.length === 0;
     return (
       <Line
@@ -30,7 +43,7 @@ export function PlanChange({ doc }: { doc: Doc }) {
         reasons={answer.reasons}
         end={
           <>
-            <ShowDifferences doc={doc} from="running" />
+            {differences}
             <Button small disabled={!drives} onClick={() => studio.registry.run('file.save')}>
               {words.save}
             </Button>

@@ -4,9 +4,11 @@ import { late } from '../../parts/late';
 import type { Doc } from '../../../protocol/messages';
 import { countsOf } from '../../../core/findings';
 import { pausedLineOf } from '../../../core/run_state';
+import { usePastTime } from '../../past_hooks';
 import { useDocuments, useDrives, useStudio, useTopic } from '../../hooks';
 import { timeOf } from '../../parts/time_of';
 import { Button } from '../../parts/button';
+import { RunFromHere } from '../run_from_here';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 
@@ -27,6 +29,7 @@ export function ScriptNotices({ doc, isScript }: { doc: Doc; isScript: boolean }
 
 function LoadedNotice({ doc }: { doc: Doc }) {
   const { registry } = useStudio();
+  const past = usePastTime();
   const node = useTopic('robot', {})?.nodes.find((one) => one.doc === doc);
   const { errors } = countsOf(useTopic('findings', {})?.findings ?? [], doc);
   if (node?.fault) return <Line error>{words.fault(node.fault, pausedLineOf(node))}</Line>;
@@ -34,6 +37,7 @@ function LoadedNotice({ doc }: { doc: Doc }) {
   // What a world has loaded by itself has no time.
   const time = node.loaded_wall ? timeOf(node.loaded_wall) : null;
   if (errors > 0) return <Line>{words.oldRuns(time)}</Line>;
+  if (past !== null) return <Line end={<RunFromHere />}>{text.past.changed}</Line>;
   return (
     <Line
       end={

@@ -1,0 +1,58 @@
+#include "trial/kept_run.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "base/file.hpp"
+#include "trial/test_file.hpp"
+#include "trial/trial.hpp"
+
+namespace vagus::trial {
+
+namespace {
+
+struct Tried {
+    bool as_drafted = true;  // what the recording tells came about again
+    bool untouched = true;
+};
+
+// Nothing: there can be no such run.
+std::optional<Tried> tried(const Draft& draft, const KeptPlace& place) {
+    const auto test = read_test(draft.text, place.test);
+    if (!test.ok()) return std::nullopt;
+    const auto outcome =
+        run_trial(test.value(), test.value().seeds.first, {.record = place.scratch});
+    if (!outcome.ok()) return std::nullopt;
+    Tried result;
+    for (size_t i = 0; i < outcome.value().verdicts.size(); ++i) {
+        const bool touches = test.value().expect[i].kind == Expectation::Kind::Always;
+        bool& part = touches ? result.untouched : result.as_drafted;
+        part = part && outcome.value().verdicts[i].as_expected;
+    }
+    return result;
+}
+
+// Named as the recording that the person knows.
+Result<Draft> draft_again(const std::string& file, const std::string& name,
+                          const DraftOptions& options) {
+    const MappedFile bytes = TRY(MappedFile::open(file));
+    const mcap::Reader reader = TRY(mcap::Reader::open(bytes.bytes(), name));
+    return draft_test(reader, options);
+}
+
+}  // namespace
+
+Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place) {
+    Draft plain = TRY(draft_test(reader));
+    Draft draft = TRY(draft_test(reader, {.untouched = true}));
+    const auto came = tried(draft, place);
+    if (!came) return KeptRun{std::move(plain)};
+    if (came->as_drafted) return KeptRun{came->untouched ? std::move(draft) : std::move(plain)};
+    auto again = draft_again(place.scratch, reader.name(), {.untouched = came->untouched});
+    // It came to no actor, so there is nothing to expect of it.
+    if (!again.ok()) return KeptRun{std::move(plain)};
+    return KeptRun{std::move(again.value()), true};
+}
+
+}  // namespace vagus::trial

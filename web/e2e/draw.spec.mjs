@@ -197,6 +197,26 @@ test('a plan is drawn and corrected with keys alone', empty, async (studio) => {
   });
 });
 
+test('Alt+Enter on a row of Problems fixes that problem', empty, async (studio) => {
+  const { page, press, type } = studio;
+  await page.getByRole('region', { name: 'Plan P, drawn' }).focus();
+  await press('a');
+  await type('wait');
+  await press('Enter');
+  await focused(element(page, 'wait, actor Wait'));
+  // Its input, then its state; the second one is asked for first.
+  const row = (/** @type {RegExp} */ what) => page.locator('.virtual__row', { hasText: what });
+  await row(/leads nowhere/).focus();
+  await press('Alt+Enter');
+  await seen(page.getByRole('menuitem', { name: 'terminate' }));
+  await type('term');
+  await press('Enter');
+  await gone(row(/leads nowhere/));
+  await row(/needs a value/).focus();
+  await press('Alt+Enter');
+  await focused(page.getByRole('combobox', { name: 'seconds' }));
+});
+
 test(
   'the menu of the empty canvas adds an element',
   wall,

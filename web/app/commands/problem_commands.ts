@@ -84,6 +84,16 @@ export function pressFix(studio: Studio, finding: Finding, fix: Fix): void {
   void press().catch((problem: unknown) => studio.tell(problem));
 }
 
+/** The first of its buttons, by the key of its row. */
+export function fixProblem(studio: Studio, finding: Finding): void {
+  const [fix] = finding.fixes;
+  if (fix) return pressFix(studio, finding, fix);
+  const act = drawnHelpOf(studio).help?.actFor(finding);
+  if (!act) return toast(studio.window, 'note', text.problems.noFix);
+  // After the key: what opens for it would take the rest of that press for its own, and close.
+  studio.world.later(0, () => act.run());
+}
+
 /** What the checkers say of what is on the screen: what was typed last is sent and waited for. */
 export async function freshFindings(studio: Studio): Promise<readonly Finding[]> {
   const versions = await studio.documents.flushAll();

@@ -1,7 +1,7 @@
 import { IconAlertOctagon, IconAlertTriangle } from '@tabler/icons-react';
 import type { Finding } from '../../protocol/messages';
 import { ordered } from '../../core/findings';
-import { pressFix, showProblem } from '../commands/problem_commands';
+import { fixProblem, pressFix, showProblem } from '../commands/problem_commands';
 import { nameOf } from '../documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../hooks';
 import { Quiet } from '../parts/blank';
@@ -15,6 +15,7 @@ import '../look/lists.css';
 /** All mistakes and remarks of the project, errors first. */
 export default function ProblemsPanel() {
   const studio = useStudio();
+  const drives = useDrives();
   const topic = useTopic('findings', {});
   const current = useWindow((state) => state.problem);
   const cursor = useWindow((state) => state.cursor);
@@ -34,10 +35,12 @@ export default function ProblemsPanel() {
         keyOf={({ finding: { doc, at, code }, index }) =>
           `${doc} ${at.line} ${at.column} ${code} ${index}`
         }
-        onRowKey={({ index }, event) => {
+        onRowKey={({ finding, index }, event) => {
           if (event.key !== 'Enter' && event.key !== ' ') return;
+          if (event.altKey && !drives) return; // the command says why
           event.preventDefault();
-          showProblem(studio, index);
+          if (event.altKey) fixProblem(studio, finding);
+          else showProblem(studio, index);
         }}
       >
         {({ finding, index }) => (

@@ -31,8 +31,8 @@ protected:
     }
     void record() {
         const std::string expect = R"("expect":[{"ends":"OK"}]})";
-        const auto outcome = run(
-            R"({"format":"vagus-test/1","plan":"P.plan.json",)" + expect, folder_ / "run.mcap");
+        const auto outcome =
+            run(R"({"format":"vagus-test/1","plan":"P.plan.json",)" + expect, folder_ / "run.mcap");
         ASSERT_TRUE(outcome.ok()) << outcome.error().what;
     }
     KeptRun keep() {

@@ -1,5 +1,6 @@
 #include "serve/runner/keep_host.hpp"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,7 +16,9 @@ namespace {
 
 Result<Json> kept(const std::string& path, const std::string& test) {
     const MappedFile file = TRY(MappedFile::open(path));
-    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), path));
+    // As pages name it: where it lies on this computer says nothing to them.
+    const std::string name = std::filesystem::path(path).filename().string();
+    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), name));
     const TemporaryFolder scratch = TRY(TemporaryFolder::make("kept"));
     const trial::KeptRun run =
         TRY(trial::keep_run(reader, {.test = test, .scratch = scratch.path() + "/run.mcap"}));

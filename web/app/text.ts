@@ -67,6 +67,7 @@ export const text = {
     'past.stepBefore': 'Back to the step of the plan before',
     'past.stepAfter': 'On to the next step of the plan',
     'past.lookBack': 'Look back to the last step of the plan',
+    'past.seconds': 'Look back 2 s',
     'past.continue': 'Run from here',
     'past.stay': 'Go back to this instant, paused',
     'timeline.fit': 'Timeline: everything that is kept',

@@ -233,6 +233,27 @@ test('a recording is opened, looked back into, asked, and continued', wall, asyn
   await until('it runs', async () => (await clock(page)) > 2);
 });
 
+test(
+  'a script without a plan is looked back at by two seconds, by keys alone',
+  { words: ['--example', 'thymio'] },
+  async (studio) => {
+    const { page, press, command, editor } = studio;
+    await seen(editor('thymio-II'));
+    await press('F5');
+    await until('it has run for some seconds', async () => (await clock(page)) > 4);
+    await press('F8');
+    await seen(page.getByRole('button', { name: 'Continue' }));
+    const now = await clock(page);
+    await command('Look back 2 s');
+    await reads(bar(page), /2\.0 s ago/);
+    await command('Look back 2 s');
+    await reads(bar(page), /4\.0 s ago/);
+    await press('F5');
+    await gone(bar(page));
+    await until('it runs on from there', async () => (await clock(page)) < now);
+  },
+);
+
 test('back to an instant, and it stays there', wall, async (studio) => {
   const { page, press, type } = studio;
   await runTo(studio, 'parallelToWall');

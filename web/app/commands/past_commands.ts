@@ -8,6 +8,8 @@ import { shownEditor } from './editor_handles';
 import { canLog, logAt } from './log_values';
 import { drives } from './looks';
 
+/** What somebody saw happen lies about so far back. */
+const kPastSeconds = 2;
 const titles = text.commands;
 const group = text.groups.past;
 
@@ -74,6 +76,13 @@ export function pastCommands(studio: Studio): Command[] {
       keys: ['Alt+F10'],
       enabled: known,
       run: stepped(false),
+    },
+    {
+      id: 'past.seconds',
+      title: titles['past.seconds'],
+      group,
+      enabled: known,
+      run: () => past.step(-kPastSeconds),
     },
     {
       id: 'past.continue',

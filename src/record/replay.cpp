@@ -397,15 +397,13 @@ private:
         }
     }
 
-    // Nobody asks any more: of a recording that was cut off nothing is known from here on. Where it
-    // is another run by now, it goes on.
+    // Nobody asks any more: nothing is known from here on. What is another run by now goes on.
     void let_debugged_go_on() {
         if (another_way_ || next_ask_ < asks_.size()) {
             recorder_->input_at(asked_until_, run::Request(run::Continue{}));
             return post(run::Continue{});
         }
-        tape_->end();
-        over_ = true;
+        end_paused();
         post(run::Abort{});
     }
 
@@ -426,14 +424,16 @@ private:
         if (!over_ && is_cut) obey(Then::End);
     }
 
+    void end_paused() {
+        if (paused_end_) paused_end_();
+        tape_->end();
+        over_ = true;
+    }
+
     // What was not done to the paused plan lets it go on.
     void while_paused() {
         hear_debugger();
-        if (!over_ && next_input_ >= inputs_.size()) {
-            if (paused_end_) paused_end_();
-            tape_->end();
-            over_ = true;
-        }
+        if (!over_ && next_input_ >= inputs_.size()) end_paused();
         if (over_) return post(run::Abort{});
         if (!is_due()) return post(run::Continue{});
         obey(do_turn(*recorder_));

@@ -87,9 +87,46 @@ breakpoint 2, paused at 1.000000, Count: wait (activation 5) is about to begin
         self.assertIn('"x" is not the number of a breakpoint', err)
         self.assertIn("which breakpoint? its number, or all", err)
 
-    def test_why_is_asked_of_the_recording(self):
-        _, err = self.debug("why actor step")
-        self.assertIn("why is asked of a recording, also while the run goes on: begin with --record run.mcap", err)
+    def test_why_is_asked_of_the_run_so_far(self):
+        """It waits 0.5 s, loops at 0.5 s, and is about to loop at 1 s."""
+        out, err = self.debug("break actor step count 2", "run", "why actor step", "why variable n at 0.7", "why event beat",
+                              "why fly", "why actor step at x", "delete all", "run", "why end", "step", "why end", exit_code=3)
+        place = {name: next(i for i, line in enumerate(COUNT.splitlines(), 1) if name in line) for name in ('"start"', '"wait": {', '"step": {')}
+        start, wait, step = place.values()
+        looped = f"""\
+      0.500 s  the actor step ended with Loop  Count.plan.json:{step}
+      0.500 s  the actor step began  Count.plan.json:{step}
+      0.500 s  the actor wait ended with Done  Count.plan.json:{wait}
+      0.000 s  the actor wait began  Count.plan.json:{wait}
+      0.000 s  the plan Count began  Count.plan.json:{start}
+"""
+        paused = "breakpoint 1, paused at 1.000000, Count: step (activation 4) is about to begin\n"
+        again = f"      1.000 s  the actor wait ended with Done  Count.plan.json:{wait}\n      0.500 s  the actor wait began  Count.plan.json:{wait}\n"
+        self.assertIn(f"{paused}{again}{looped}      0.500 s  step wrote the variable n (1)  Count.plan.json:{step}\n{looped}", out)
+        self.assertIn(f"the run is over at 2.500000: OK\n      2.500 s  the plan Count ended: OK  Count.plan.json:{start}\n", out)
+        self.assertIn('event "beat"', err)
+        self.assertIn('found "fly"', err)
+        self.assertIn("why: at x: expected seconds since the start of the run", err)
+        self.assertIn("why: only the first run is recorded; leave and begin again", err)
+
+    def test_why_of_a_robot_goes_on_to_its_script(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "two.plan.json").write_text(TWO_PULSES)
+            (folder / "pulse.aesl").write_text(PULSE)
+            (folder / "room.world.json").write_text(PULSE_ROOM)
+            done = subprocess.run([VAGUS, "plan", "debug", "two.plan.json", "--world", "room.world.json", "--clock", "virtual"],
+                                  cwd=folder, timeout=60, input="break actor second\nrun\nwhy actor second\nwhy event pulse\nquit\n",
+                                  capture_output=True, text=True, check=False)
+        self.assertRegex(done.stdout, r"the script of thymio-II emitted pulse \(\d+\)  pulse\.aesl:7\n")
+        self.assertEqual(done.stderr, "")
+
+    def test_why_in_real_time_says_what_it_needs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "Count.plan.json"
+            path.write_text(COUNT)
+            done = subprocess.run([VAGUS, "plan", "debug", path], timeout=60, input="why end\n", capture_output=True, text=True, check=False)
+        self.assertIn("why: a run in real time cannot be run again; give it a --world, or --clock virtual", done.stderr)
 
     def test_held_without_a_bus_says_so_and_refuses_what_it_does_not_know(self):
         out, err = self.debug("step", "held", "held step", "held go x", "held fly", "held drop", "held drop 4", "held drop all",

@@ -6,10 +6,12 @@
 #include <set>
 #include <thread>
 
+#include "base/file.hpp"
 #include "base/nearest.hpp"
 #include "cli/output.hpp"
 #include "cli/plan/debug_lines.hpp"
 #include "cli/plan/debug_text.hpp"
+#include "cli/record/chain_text.hpp"
 #include "net/end_signal.hpp"
 #include "plan/formula_words.hpp"
 #include "plan/trace.hpp"
@@ -78,6 +80,7 @@ private:
     Status raise(std::string_view rest);
     Status held(std::string_view rest);
     Status where(std::string_view rest);
+    Status why(std::string_view rest);
     Status trace(std::string_view rest);
     Status help(std::string_view rest);
     Status quit(std::string_view rest);
@@ -107,6 +110,7 @@ private:
     bool running_ = false;
     bool quit_ = false;
     bool pause_asked_ = false;  // by Ctrl-C, and not yet taken
+    int runs_over_ = 0;
     int exit_code_ = kExitDone;
 };
 
@@ -140,6 +144,10 @@ const std::vector<Prompt::Command>& Prompt::commands() {
          "them",
          &Prompt::held},
         {"where", "where", "the plans that run, their actors, who watches", &Prompt::where},
+        {"why", "why QUESTION [at SECONDS] [all]",
+         "why something is as it is, now or at that time of the run: actor NAME, variable "
+         "NODE.NAME, variable NAME, motor ROBOT, event NAME, end",
+         &Prompt::why},
         {"trace", "trace on | off", "prints the lines of the trace as they come", &Prompt::trace},
         {"help", "help [COMMAND]", "this", &Prompt::help},
         {"quit", "quit", "aborts what runs and leaves; so does the end of the input",
@@ -211,6 +219,7 @@ void Prompt::take(const run::Report& report) {
         print(text_of(*over));
         if (runner_.joinable()) runner_.join();
         exit_code_ = run_.exit_status(ended_);
+        ++runs_over_;
         start_run();
     }
 }
@@ -268,12 +277,6 @@ Status Prompt::obey(std::string_view line) {
     if (!meant.empty()) {
         return Error{Code::BadInput, fmt::format("\"{}\" can be {} or {}; type more of it", word,
                                                  meant[0]->name, meant[1]->name)};
-    }
-    // What has happened is asked where all of it is kept, also while that is still being written.
-    if (word == "why") {
-        return Error{Code::NotFound,
-                     "why is asked of a recording, also while the run goes on: begin with --record "
-                     "run.mcap, then, in another terminal: vagus why run.mcap QUESTION"};
     }
     const std::string near = nearest(word, command_names());
     return Error{Code::NotFound,
@@ -464,6 +467,42 @@ std::string Prompt::robot_text() {
     return robots.empty() ? "" : text_of(robots[world->robot().number - 1]);
 }
 
+// The same questions as `vagus why`, of what has been recorded of this run so far: that much is run
+// again.
+Status Prompt::why(std::string_view rest) {
+    std::vector<std::string> words;
+    std::optional<Time> at;
+    bool all = false;
+    for (std::string word = take_word(rest); !word.empty(); word = take_word(rest)) {
+        if (words.empty() || (word != "at" && word != "all")) {
+            words.push_back(std::move(word));
+        } else if (word == "all") {
+            all = true;
+        } else {
+            const std::string given = take_word(rest);
+            const Result<double> seconds = plan::float_from_text(given);
+            if (!seconds.ok()) {
+                return Error{Code::BadInput,
+                             fmt::format("why: at {}: expected seconds since the start of the "
+                                         "run, as at 2.5",
+                                         given)};
+            }
+            at = toolbox::duration_of(seconds.value());
+        }
+    }
+    const record::Question question = TRY(record::read_question(words));
+    if (runs_over_ > 0 && started_) {
+        return Error{Code::NotFound,
+                     "why: only the first run is recorded; leave and begin again to ask about "
+                     "another one"};
+    }
+    const std::string path = TRY(run_.recorded());
+    const MappedFile file = TRY(MappedFile::open(path));
+    const mcap::Reader reader = TRY(mcap::Reader::open(file.bytes(), "this run"));
+    print(chain_text(TRY(record::why(reader, question, at)), all ? "" : "all shows them"));
+    return Status::done();
+}
+
 Status Prompt::trace(std::string_view rest) {
     if (rest != "on" && rest != "off") {
         return Error{Code::BadInput, fmt::format("trace \"{}\": expected on or off", rest)};
@@ -494,7 +533,9 @@ Status Prompt::quit(std::string_view) {
 
 int debug_plan(const PlanRunOptions& options) {
     net::watch_for_end();  // Ctrl-C means something else from the prompt on
-    const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(options);
+    PlanRunOptions asked = options;
+    asked.asked = true;
+    const std::unique_ptr<TerminalRun> run = TerminalRun::prepare(asked);
     if (!run || net::end_asked()) return kExitUsage;
     run->prepared().brake_as_a_whole();
     return Prompt(*run).run();

@@ -1,6 +1,7 @@
 #include "cli/plan/run.hpp"
 
 #include <CLI/CLI.hpp>
+#include <thread>
 
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -9,6 +10,23 @@
 #include "session/toolboxes.hpp"
 
 namespace vagus::cli {
+
+namespace {
+
+// What cannot be run again is not recorded as if it could.
+Status check_recording(const embed::RunWords& words, const std::string& what) {
+    if (!words.listen.empty()) {
+        return Error{Code::Refused, what + "not together with --listen; leave one of them out"};
+    }
+    if (words.world.empty() && words.bus.empty() && words.clock != "virtual") {
+        return Error{Code::Refused, what +
+                                        "a run in real time cannot be run again; give it a "
+                                        "--world, or --clock virtual"};
+    }
+    return Status::done();
+}
+
+}  // namespace
 
 void show_findings(const plan::Findings& findings) {
     say(embed::format_findings(findings));
@@ -22,7 +40,7 @@ std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options)
         new TerminalRun());  // make_unique cannot reach the constructor
     const embed::RunWords& words = options.words;
     std::optional<FilesRead> files;  // all that is read from here on
-    if (!options.record.empty()) files.emplace();
+    if (!options.record.empty() || options.asked) files.emplace();
     const Status added = session::add_toolboxes(made->library_, made->parts_, words.toolboxes);
     if (!added.ok()) {
         complain(added.error());
@@ -39,12 +57,15 @@ std::unique_ptr<TerminalRun> TerminalRun::prepare(const PlanRunOptions& options)
     made->prepared_ = std::move(prepared.value());
     made->prepared_->tell([](const std::string& sentence) { complain(sentence); });
     if (options.quiet) made->prepared_->report([](const std::string&) {});
-    if (files) {
-        const Status begun = made->begin_recording(options, *files);
+    if (!options.record.empty()) {
+        Status begun = check_recording(options.words, "--record " + options.record + ": ");
+        if (begun.ok()) begun = made->begin_recording(options, *files);
         if (!begun.ok()) {
             complain(begun.error());
             return nullptr;
         }
+    } else if (files) {
+        made->recorded_ = made->begin_unkept_recording(options, *files);
     }
     const std::string listening = made->prepared_->listening();
     if (listening.empty()) return made;
@@ -59,27 +80,7 @@ std::vector<std::string> TerminalRun::files() const {
     return files;
 }
 
-namespace {
-
-// What cannot be run again is not recorded as if it could.
-Status check_recording(const PlanRunOptions& options) {
-    const embed::RunWords& words = options.words;
-    const std::string file = "--record " + options.record + ": ";
-    if (!words.listen.empty()) {
-        return Error{Code::Refused, file + "not together with --listen; leave one of them out"};
-    }
-    if (words.world.empty() && words.bus.empty() && words.clock != "virtual") {
-        return Error{Code::Refused, file +
-                                        "a run in real time cannot be run again; give it a "
-                                        "--world, or --clock virtual"};
-    }
-    return Status::done();
-}
-
-}  // namespace
-
 Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRead& files) {
-    TRY(check_recording(options));
     session::PlanWorld* const world = prepared_->world();
     if (options.record_camera) {
         TRY(record::check_cameras(world == nullptr ? nullptr : &world->session().world()));
@@ -108,12 +109,40 @@ Status TerminalRun::begin_recording(const PlanRunOptions& options, const FilesRe
     return Status::done();
 }
 
+// A real bus has an observer only where somebody wants it.
+Status TerminalRun::begin_unkept_recording(const PlanRunOptions& options, const FilesRead& files) {
+    if (!options.words.bus.empty()) {
+        return Error{Code::Refused,
+                     "why: a run on a real bus is recorded where it is asked for: begin with "
+                     "--record run.mcap"};
+    }
+    TRY(check_recording(options.words, "why: "));
+    PlanRunOptions unkept = options;
+    unkept_.emplace(TRY(TemporaryFolder::make("asked")));
+    unkept.record = unkept_->path() + "/run.mcap";
+    return begin_recording(unkept, files);
+}
+
+Result<std::string> TerminalRun::recorded() {
+    const std::lock_guard lock(recording_mutex_);
+    TRY(recorded_);
+    if (!recording_) return record_;
+    const uint64_t number = recording_->flush();
+    while (!recording_->flushed(number)) std::this_thread::yield();
+    return record_;
+}
+
 void TerminalRun::end_recording() {
+    const std::lock_guard lock(recording_mutex_);
     if (!recording_) return;
     const Status written = recording_->end();
-    if (!written.ok()) complain(written.error());
-    all_recorded_ = written.ok();
-    complain_left_out(record_, recording_->dropped(), "variables, poses and cameras");
+    if (unkept_) {
+        recorded_ = written;
+    } else {
+        if (!written.ok()) complain(written.error());
+        all_recorded_ = written.ok();
+        complain_left_out(record_, recording_->dropped(), "variables, poses and cameras");
+    }
     recording_.reset();
 }
 

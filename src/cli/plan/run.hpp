@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/temporary_folder.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
 #include "plan/check.hpp"
@@ -37,6 +39,7 @@ struct PlanRunOptions {
     bool watch = false;     // starts again when a file is saved
     std::string record;     // a file for the recording of the first run; empty: none
     bool record_camera = false;
+    bool asked = false;  // without `record`, one that nobody keeps answers questions (recorded())
 };
 
 void add_plan_file(CLI::App& verb, std::string& file);
@@ -61,12 +64,16 @@ public:
     int exit_status(const run::Ended& ended);
     // What --record named; empty: nothing was to be recorded. It has the first run.
     const std::string& record() const { return record_; }
+    // A recording of the first run with all that has happened so far, also while it goes on, for
+    // questions. The Error says why there is none.
+    Result<std::string> recorded();
     // Before run(); borrowed.
     void set_debugger(run::Debugger& debugger);
 
 private:
     TerminalRun();
     Status begin_recording(const PlanRunOptions& options, const FilesRead& files);
+    Status begin_unkept_recording(const PlanRunOptions& options, const FilesRead& files);
     void end_recording();
 
     toolbox::Parts parts_;  // before the library, whose code looks at them
@@ -75,6 +82,9 @@ private:
     std::unique_ptr<embed::PreparedRun> prepared_;
     run::Debugger* debugger_ = nullptr;
     std::string record_;
+    std::optional<TemporaryFolder> unkept_;  // of a recording for questions alone
+    Status recorded_ = Status::done();       // why there is none
+    std::mutex recording_mutex_;             // the thread of the run ends what follows
     std::unique_ptr<record::PlanRecording> recording_;
     bool all_recorded_ = true;
 };

@@ -9,14 +9,13 @@
 #include "base/seconds.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
+#include "cli/record/chain_text.hpp"
 #include "cli/record/turning.hpp"
 #include "cli/verbs.hpp"
 
 namespace vagus::cli {
 
 namespace {
-
-constexpr size_t kShown = 20;  // links, before the last
 
 struct WhyOptions {
     TurningOptions turning;  // if its condition is given
@@ -54,16 +53,7 @@ int tell_why(const WhyOptions& options) {
         print(record::format_chain_json(chain.value()));
         return kExitDone;
     }
-    const record::Chain& links = chain.value();
-    const bool whole = options.all || links.size() <= kShown + 1;
-    for (size_t i = 0; i < links.size(); ++i) {
-        if (!whole && i == kShown) {
-            print(fmt::format("{:>14} {} more (--all shows them), and it began with:\n", "…",
-                              links.size() - kShown - 1));
-            i = links.size() - 1;
-        }
-        print(record::format_link(links[i]) + "\n");
-    }
+    print(chain_text(chain.value(), options.all ? "" : "--all shows them"));
     return kExitDone;
 }
 

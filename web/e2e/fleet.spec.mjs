@@ -69,7 +69,9 @@ test(
     // What the robot tells of its nodes is suggested.
     await until('its node is suggested', async () => {
       const suggested = page.locator('.forder datalist option');
-      const names = await suggested.evaluateAll((all) => all.map((one) => one.getAttribute('value')));
+      const names = await suggested.evaluateAll((all) =>
+        all.map((one) => one.getAttribute('value')),
+      );
       return names.join() === 'thymio-II.';
     });
     await type('thymio-II.go');

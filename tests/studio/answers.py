@@ -88,7 +88,8 @@ class Answers(Case):
         page = self.open_simulated()
         page.do("target.choose", target="sim")
         self.wait_node(described=True)
-        page.do("run.step")  # before that there may be no run to keep
+        page.do("run.step")
+        self.wait(lambda: self.clock.value["t"] > 0, "an instant, before which there is no run to keep")
         told = self.refused("failed", "test.keep")
         self.assertRegex(told, r"^run-\d+\.mcap: is the recording of a world without a plan; a test is of a plan")
 

@@ -89,7 +89,7 @@ class Answers(Case):
         page.do("target.choose", target="sim")
         self.wait_node(described=True)
         page.do("run.step")
-        self.wait(lambda: self.clock.value["t"] > 0, "an instant, before which there is no run to keep")
+        self.wait(lambda: self.clock.value["t"] > 0 and [*self.folder.rglob("run-*.mcap")], "the recording of a run that has begun")
         told = self.refused("failed", "test.keep")
         self.assertRegex(told, r"^run-\d+\.mcap: is the recording of a world without a plan; a test is of a plan")
 

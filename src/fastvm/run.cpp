@@ -14,6 +14,7 @@ constexpr int kStretchMax = 2048;
 // Executes instructions as long as cells can; gives how many. 0: the next one is for vm::run().
 int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
     const vm::Config& config = *vm.config;
+    vm.flags |= wire::kFlagRunning;
     if (vm.pc >= cells.size()) return 0;
     Context context = {.vm = vm,
                        .cells = cells.data(),
@@ -33,7 +34,6 @@ int run_stretch(vm::Vm& vm, const Cells& cells, int limit) {
 [[gnu::noinline]] int run_on(vm::Vm& vm, const Cells& cells, int done, int limit) {
     // A pause is at a breakpoint, where the machine still counts as running.
     while (done < limit && vm::is_active(vm) && !vm::is_paused_in_event(vm)) {
-        vm.flags |= wire::kFlagRunning;
         const int quick = run_stretch(vm, cells, limit - done);
         done += quick;
         if (quick == 0) done += vm::run(vm, 1);
@@ -50,7 +50,6 @@ uint16_t run(vm::Vm& vm, Bytecode& bytecode, uint16_t limit) {
     const Cells& cells =
         bytecode.cells(vm.config->variables_size, {vm.config->breakpoints, vm.breakpoint_count});
     // Most handlers end within one stretch.
-    vm.flags |= wire::kFlagRunning;
     int done = run_stretch(vm, cells, limit);
     if ((vm.flags & wire::kFlagRunning) != 0) done = run_on(vm, cells, done, limit);
     return static_cast<uint16_t>(done);

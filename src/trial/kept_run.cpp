@@ -44,15 +44,15 @@ Result<Draft> draft_again(const std::string& file, const std::string& name,
 }  // namespace
 
 Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place) {
-    Draft plain = TRY(draft_test(reader));
-    Draft draft = TRY(draft_test(reader, {.untouched = true}));
-    const auto came = tried(draft, place);
-    if (!came) return KeptRun{std::move(plain)};
-    if (came->as_drafted) return KeptRun{came->untouched ? std::move(draft) : std::move(plain)};
-    auto again = draft_again(place.scratch, reader.name(), {.untouched = came->untouched});
-    // It came to no actor, so there is nothing to expect of it.
-    if (!again.ok()) return KeptRun{std::move(plain)};
-    return KeptRun{std::move(again.value()), true};
+    Draft untouched = TRY(draft_test(reader, {.untouched = true}));
+    const auto came = tried(untouched, place);
+    if (came && came->as_drafted && came->untouched) return KeptRun{std::move(untouched)};
+    if (came && !came->as_drafted) {
+        // An Error: it came to no actor, so there is nothing to expect of it.
+        auto again = draft_again(place.scratch, reader.name(), {.untouched = came->untouched});
+        if (again.ok()) return KeptRun{std::move(again.value()), true};
+    }
+    return KeptRun{TRY(draft_test(reader))};
 }
 
 }  // namespace vagus::trial

@@ -168,13 +168,13 @@ function useAskForControl(): void {
   }, [studio, link, driver, clients]);
 }
 
-/** Problems opens by itself at the first error only, and never before the timeline of who looks back. */
+/** Problems opens by itself at the first error only, and not while a person looks back. */
 function useProblemsOpen(): void {
   const studio = useStudio();
   const errors = usePart('findings', {}, (is) => countsOf(is?.findings ?? []).errors);
   const opened = useRef(false);
   useEffect(() => {
-    // Who looks back needs the timeline that is there.
+    // It would cover the timeline, which is needed to look back.
     if (errors === 0 || opened.current || studio.past.at !== null) return;
     opened.current = true;
     revealPanel(studio.window, 'problems', false);

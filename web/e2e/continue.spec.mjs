@@ -152,7 +152,7 @@ test('a run that was changed on its way is kept as a test that passes', wall, as
   const { page, press, type, server, layout } = studio;
   await runTo(studio, 'parallelToWall');
   await back(studio, 1);
-  // So slow from its start the run comes nowhere in that time; this run has come there.
+  // A run from the start at this speed does not reach the wall in time. This run already has.
   await layout('Draw');
   await page.getByRole('group', { name: /^searchFirstWall, actor/ }).click();
   await page.getByRole('tab', { name: 'Properties' }).click();

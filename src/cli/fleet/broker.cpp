@@ -164,13 +164,10 @@ private:
     Status sign_authority(const std::vector<std::string>& key) {
         std::vector<std::string> words = {"req", "-x509"};
         words.insert(words.end(), key.begin(), key.end());
-        for (const std::string& word :
-             {std::string("-out"), path("ca.crt"), std::string("-days"),
-              std::to_string(kCertificateDays), std::string("-subj"),
-              std::string("/CN=Authority of a fleet of Vagus"), std::string("-addext"),
-              std::string("keyUsage=critical,keyCertSign,cRLSign")}) {
-            words.push_back(word);
-        }
+        words.insert(words.end(),
+                     {"-out", path("ca.crt"), "-days", std::to_string(kCertificateDays), "-subj",
+                      "/CN=Authority of a fleet of Vagus", "-addext",
+                      "keyUsage=critical,keyCertSign,cRLSign"});
         return openssl(words);
     }
 

@@ -51,6 +51,15 @@ PromptWords words_of(const plan::Graph& graph, std::vector<std::string> commands
     return {std::move(commands), {words.begin(), words.end()}};
 }
 
+// `asked`: what it stands behind.
+Result<Time> instant_of(std::string_view given, std::string_view asked, std::string_view example) {
+    const Result<double> seconds = plan::float_from_text(given);
+    if (seconds.ok()) return toolbox::duration_of(seconds.value());
+    return Error{Code::BadInput, fmt::format("{} {}: expected seconds since the start of the run, "
+                                             "as {}",
+                                             asked, given, example)};
+}
+
 class Prompt {
 public:
     explicit Prompt(TerminalRun& run);
@@ -358,16 +367,7 @@ Status Prompt::held(std::string_view rest) {
 
 Status Prompt::pause(std::string_view rest) {
     run::Pause wanted;
-    if (!rest.empty()) {
-        const Result<double> seconds = plan::float_from_text(rest);
-        if (!seconds.ok()) {
-            return Error{Code::BadInput,
-                         fmt::format("pause {}: expected seconds since the start of the run, as "
-                                     "pause 2.5",
-                                     rest)};
-        }
-        wanted.at = toolbox::duration_of(seconds.value());
-    }
+    if (!rest.empty()) wanted.at = TRY(instant_of(rest, "pause", "pause 2.5"));
     TRY(ask(wanted));
     return wanted.at ? Status::done() : wait_for_stop();
 }
@@ -479,15 +479,7 @@ Status Prompt::why(std::string_view rest) {
         } else if (word == "all") {
             all = true;
         } else {
-            const std::string given = take_word(rest);
-            const Result<double> seconds = plan::float_from_text(given);
-            if (!seconds.ok()) {
-                return Error{Code::BadInput,
-                             fmt::format("why: at {}: expected seconds since the start of the "
-                                         "run, as at 2.5",
-                                         given)};
-            }
-            at = toolbox::duration_of(seconds.value());
+            at = TRY(instant_of(take_word(rest), "why: at", "at 2.5"));
         }
     }
     const record::Question question = TRY(record::read_question(words));

@@ -62,7 +62,7 @@ public:
     run::Ended run();
     // That of the plan; where it ended well, 1 if its trace or its recording could not be written.
     int exit_status(const run::Ended& ended);
-    // What --record named; empty: nothing was to be recorded. It has the first run.
+    // The recording of the first run: what --record named, or one that nobody keeps; empty: none.
     const std::string& record() const { return record_; }
     // A recording of the first run with all that has happened so far, also while it goes on, for
     // questions. The Error says why there is none.

@@ -11,6 +11,7 @@ import {
 } from '../protocol/messages';
 import type { Connection } from './connection';
 import { Emitter } from './emitter';
+import { PastSettings } from './past_settings';
 import type { TopicCache } from './topics';
 
 export type Instant = Commands['history.at']['out'];
@@ -56,6 +57,8 @@ export class Past {
   plan: PlanThen | null = null;
   /** A trace that was opened as a file: nothing runs. */
   trace: OpenTrace | null = null;
+  /** What variables of the plan are to be when the run goes on from there. */
+  readonly settings = new PastSettings();
 
   private readonly sights = new Set<Sights>();
   private asking = false;
@@ -204,6 +207,7 @@ export class Past {
   }
 
   private forget(): void {
+    this.settings.clear();
     this.instant = null;
     this.shown = null;
     this.plan = null;

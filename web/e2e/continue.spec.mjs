@@ -313,3 +313,77 @@ test('a run before this one is opened from the timeline, by keys', wall, async (
   await seen(bar(page));
   await reads(page.locator('.pactive'), /searchFirstWall/);
 });
+
+test('a variable of then is set for the run from there', wall, async (studio) => {
+  const { page, press, type } = studio;
+  await runTo(studio, 'parallelToWall');
+  await page.getByRole('switch', { name: 'What it does' }).click();
+  const at = await back(studio, 1);
+  const live = page.getByRole('complementary', { name: 'What the plan does' });
+  const distance = live.getByLabel('Value of walldist');
+  const set = async () => {
+    assert.equal(await distance.inputValue(), '30');
+    await distance.click();
+    await press('Control+a');
+    await type('60');
+    await press('Enter');
+  };
+  await set();
+  const notice = page.getByRole('status').filter({ hasText: 'sets walldist to 60' });
+  await seen(notice.getByText('it is 30 at this instant'));
+  await notice.getByRole('button', { name: 'Keep 30' }).click();
+  await gone(notice);
+  await set();
+  await look(studio, 'variable-then');
+  await notice.getByRole('button', { name: 'Run from here' }).click();
+  await gone(bar(page));
+  await seen(page.getByText('Paused by the breakpoint parallelToWall'));
+  await until('it runs on with it', async () => (await distance.inputValue()) === '60');
+  assert.ok((await clock(page)) >= at);
+});
+
+test('a change of the active actor counts from where it started', wall, async (studio) => {
+  const { page, press, type, layout } = studio;
+  await runTo(studio, 'parallelToWall');
+  const at = await back(studio, 1); // where searchFirstWall ended
+  await layout('Draw');
+  const fields = page.getByRole('region', { name: 'Properties' });
+  const change = async (/** @type {RegExp} */ actor, /** @type {string} */ label, to = '') => {
+    await page.getByRole('group', { name: actor }).click();
+    await page.getByRole('tab', { name: 'Properties' }).click();
+    await fields.getByLabel(label).click();
+    await press('Control+a');
+    await type(to);
+    await press('Enter');
+  };
+  const notice = page.getByRole('status').filter({ hasText: '“Run from here” uses this change.' });
+  // The one that comes next takes its values then.
+  await change(/^followWall, actor/, 'gain', '2');
+  await seen(notice);
+  assert.doesNotMatch(await notice.innerText(), /keeps the values/);
+  await change(/^searchFirstWall, actor/, 'speed', '10');
+  await seen(notice.getByText('searchFirstWall keeps the values with which it started at 0.0 s.'));
+  await look(studio, 'kept');
+  await notice.getByRole('button', { name: 'Run from 0.0 s' }).click();
+  await gone(bar(page));
+  await seen(page.getByText('Paused by the breakpoint parallelToWall'));
+  // At half its speed it takes twice as long to the wall.
+  const reached = await clock(page);
+  assert.ok(reached > 2 * at, `${reached} s, after ${at} s`);
+  // Later in a run it is the instant at which the actor started.
+  const intoSearch = async (/** @type {string} */ spread) => {
+    await back(studio, 1);
+    await slider(page).focus();
+    await press(...Array(25).fill('ArrowRight')); // 0.5 s: the robot has stopped, and looks around
+    await reads(page.locator('.pactive'), new RegExp(`findWallAngle[^]*spread ${spread}`));
+  };
+  await intoSearch('120');
+  await layout('Draw');
+  await change(/^findWallAngle, actor/, 'spread', '80');
+  await seen(notice.getByText(/findWallAngle keeps the values with which it started at/));
+  await notice.getByRole('button', { name: /^Run from [1-9]/ }).click();
+  await gone(bar(page));
+  await layout('Debug');
+  await seen(page.getByText('Paused by the breakpoint parallelToWall'));
+  await intoSearch('80');
+});

@@ -764,6 +764,14 @@ export interface PlanVariable {
   unit: string;
 }
 
+/** A value for a variable of a plan that runs. */
+export interface PlanSetting {
+  /** 0: the outermost plan */
+  level: number;
+  name: Name;
+  value: Json;
+}
+
 /** A supervisor of a plan that runs. */
 export interface PlanSupervisor {
   name: Name;
@@ -1691,6 +1699,8 @@ export interface Commands {
     t: number;
     /** it stays there */
     paused?: boolean;
+    /** variables of the plan get these values there, after the files */
+    set?: PlanSetting[];
   }; out: Record<never, never> };
   /** The simulation as at its start, time 0. */
   'run.reset': { in: Record<never, never>; out: Record<never, never> };
@@ -2448,6 +2458,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   PlanTemplate: { name: 'Name', kind: 'word(actor|computation|supervisor)', help: 'line(1000)', icon: 'line(8192)', inputs: '[PlanInput; 256]', outputs: '[PlanOutput; 256]', outcomes: '[PlanOutcome; 256]', period_ms: 'number', starts: '[Name; 64]' },
   PlanToolbox: { name: 'Name', help: 'line(1000)', templates: '[PlanTemplate; 1000]' },
   PlanVariable: { name: 'Name', type: 'word(bool|int|float|string|object)', value: 'json', unit: 'line(32)' },
+  PlanSetting: { level: 'int(0..63)', name: 'Name', value: 'json' },
   PlanSupervisor: { name: 'Name', global: 'bool', watching: 'bool', events: '[Name; 64]' },
   PlanCount: { is: 'word(actor|supervisor)', name: 'Name', times: 'number', seconds: 'number', last: 'number' },
   PlanTaken: { number: 'number', is: 'word(start|state|event)', element: 'line(128)', outcome: 'line(128)', target: 'line(128)' },

@@ -40,12 +40,12 @@ void EventPast::add(Happened event) {
 }
 
 void EventPast::cut(double t) {
-    while (!events_.empty() && events_.back().t >= t) {
+    while (!events_.empty() && events_.back().t > t) {
         bytes_ -= bytes_of(events_.back());
         events_.pop_back();
     }
     for (auto& [node, states] : states_) {
-        while (!states.empty() && states.back().t >= t) states.pop_back();
+        while (!states.empty() && states.back().t > t) states.pop_back();
     }
     to_ = std::min(to_, t);
 }

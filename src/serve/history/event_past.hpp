@@ -25,7 +25,7 @@ class EventPast {
 public:
     // In the order of time; one that goes back is taken for the newest instant.
     void add(Happened event);
-    // As if nothing had been told from that instant on.
+    // As if nothing had been told after that instant.
     void cut(double t);
     // The last ones until then: Happening of the protocol.
     nlohmann::json until(double t, size_t most) const;

@@ -44,7 +44,8 @@ public:
     // Forgets everything before.
     void begin(Beginning beginning);
     void end();
-    // Another run, which has all of this one before an instant, and goes on with that one.
+    // Another run, which has all of this one until an instant, that one included, and goes on from
+    // there.
     void continue_from(double t, uint64_t run);
 
     // ---- what is told ----

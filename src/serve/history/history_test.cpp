@@ -260,7 +260,7 @@ TEST(Tape, LooksAndLampsOfAnInstantAreThePayloadOfTheTopic) {
                                        std::string(kLampBytes, 'x'));
     EXPECT_EQ(tape.at(3).rays(), std::string("\2\0\1\0", 4) + std::string(kLookBytes, 'a') +
                                      std::string(kLookBytes, 'c') + std::string(kLampBytes, 'x'));
-    tape.cut(2);
+    tape.cut(1.5);
     EXPECT_EQ(tape.at(3).rays(), tape.at(1).rays());
 }
 
@@ -294,7 +294,7 @@ TEST(PicturePast, ThePictureOfAnInstantIsTheLastOneAndNotAnOldOne) {
     EXPECT_EQ(seen(3 + kPictureHolds, "a"), "3");
     EXPECT_EQ(seen(3.01 + kPictureHolds, "a"), "");
     EXPECT_EQ(seen(3, "c"), "");
-    past.cut(3);
+    past.cut(2.5);
     EXPECT_EQ(seen(3, "a"), "1");
     EXPECT_EQ(past.bytes(), 2u);
 }
@@ -499,8 +499,8 @@ TEST(History, ALineThatIsNoneIsRefused) {
 }
 
 // Whatever a history is told in a run: a step each second, words and places, events, node states.
-void tell_walk(History& history, double from, double until) {
-    const auto is_in = [&](double t) { return t >= from && t < until; };
+void tell_walk(History& history, double after, double until) {
+    const auto is_in = [&](double t) { return t > after && t <= until; };
     for (int i = 0; i < 60; ++i) {
         const double t = i;
         const auto word = static_cast<int16_t>(i);
@@ -528,8 +528,8 @@ TEST(History, ARunThatContinuesHasThePastOfTheOneBefore) {
         SCOPED_TRACE(cut);
         History straight, other;
         for (History* one : {&straight, &other}) one->begin({.run = 2, .plans = walk()});
-        tell_walk(straight, 0, cut);
-        tell_walk(other, 0, 60);
+        tell_walk(straight, -1, cut);
+        tell_walk(other, -1, 60);
         other.continue_from(cut, 2);
         straight.passed(cut);
         for (int rest = 0; rest < 2; ++rest) {

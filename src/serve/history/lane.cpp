@@ -111,12 +111,12 @@ void Lane::mark(Mark mark) {
 }
 
 void Lane::cut(double t) {
-    while (!bars.empty() && bars.back().from >= t) bars.pop_back();
-    if (!bars.empty() && bars.back().to >= t) {
+    while (!bars.empty() && bars.back().from > t) bars.pop_back();
+    if (!bars.empty() && bars.back().to > t) {
         bars.back().to = std::numeric_limits<double>::infinity();
         bars.back().end.clear();
     }
-    while (!marks.empty() && marks.back().t >= t) marks.pop_back();
+    while (!marks.empty() && marks.back().t > t) marks.pop_back();
 }
 
 Json Lane::shown(const LaneWindow& window) const {

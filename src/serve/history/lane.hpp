@@ -45,7 +45,7 @@ struct Lane {
     // Of the bar that is open, if there is one.
     void end(double t, const std::string& how = {});
     void mark(Mark mark);
-    // As if nothing had been told from that instant on: a bar that ended later is open again.
+    // As if nothing had been told after that instant: a bar that ended later is open again.
     void cut(double t);
     bool is_open() const { return !bars.empty() && bars.back().open(); }
     // HistoryLane of the protocol.

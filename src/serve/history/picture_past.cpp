@@ -32,7 +32,7 @@ void PicturePast::thin() {
 }
 
 void PicturePast::cut(double t) {
-    while (!pictures_.empty() && pictures_.back().t >= t) {
+    while (!pictures_.empty() && pictures_.back().t > t) {
         bytes_ -= pictures_.back().bytes.size();
         pictures_.pop_back();
     }

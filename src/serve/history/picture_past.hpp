@@ -26,7 +26,7 @@ class PicturePast {
 public:
     // In the order of time; one that goes back is taken for the newest instant.
     void add(KeptPicture picture);
-    // As if nothing had been told from that instant on.
+    // As if nothing had been told after that instant.
     void cut(double t);
     // The last one of that robot until then. Valid until something is added or cut.
     const KeptPicture* at(double t, const std::string& robot) const;

@@ -50,7 +50,7 @@ void PlanPast::cut(double t) {
         bytes_ -= block.bytes;
         lines_ -= block.lines.size();
     };
-    while (blocks_.size() > 1 && blocks_.back().from >= t) {
+    while (blocks_.size() > 1 && blocks_.back().from > t) {
         drop(blocks_.back());
         blocks_.pop_back();
     }
@@ -65,7 +65,7 @@ void PlanPast::cut(double t) {
         std::erase_if(*lanes,
                       [](const Lane& one) { return one.bars.empty() && one.marks.empty(); });
     }
-    while (!steps_.empty() && steps_.back() >= t) steps_.pop_back();
+    while (!steps_.empty() && steps_.back() > t) steps_.pop_back();
     to_ = std::min(last.from, t);
     begin_block(to_);
     for (const std::string& text : last.lines) again(text, t);
@@ -77,7 +77,7 @@ void PlanPast::cut(double t) {
 // A line whose lanes are there.
 void PlanPast::again(const std::string& text, double until) {
     const auto read = TraceLine::read(text);
-    if (!read.ok() || read.value().t() >= until) return;
+    if (!read.ok() || read.value().t() > until) return;
     if (const auto event = read.value().event()) now_->see(*event);
     keep(text, std::max(to_, read.value().t()));
 }

@@ -43,7 +43,7 @@ public:
     // From the last line on this version of the plan runs (P31), counted from 1; what was before
     // keeps its own. False: it is none that follows, and nothing changes.
     bool change(uint64_t version, Plans plans);
-    // As if nothing had been told from that instant on.
+    // As if nothing had been told after that instant.
     void cut(double t);
     bool empty() const { return blocks_.empty(); }
     std::string name() const { return plans_->front().name; }

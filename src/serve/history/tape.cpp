@@ -142,7 +142,7 @@ void Tape::begin_block(double t) {
 void Tape::cut(double t) {
     if (t > to_) return;
     to_ = 0;
-    while (!blocks_.empty() && blocks_.back().from >= t) {
+    while (!blocks_.empty() && blocks_.back().from > t) {
         now_ = blocks_.back().begins;
         bytes_ -= blocks_.back().size();
         blocks_.pop_back();
@@ -153,12 +153,12 @@ void Tape::cut(double t) {
     now_ = block.begins;
     std::string kept;
     each_record(block.bytes, {[&](double at, std::string_view one) {
-                                  if (at >= t) return;
+                                  if (at > t) return;
                                   kept += one;
                                   to_ = at;
                               },
                               [&](const RecordItem& item) {
-                                  if (item.t < t) now_.apply(item);
+                                  if (item.t <= t) now_.apply(item);
                               }});
     block.bytes = std::move(kept);
     block.to = to_;

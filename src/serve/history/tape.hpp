@@ -78,7 +78,7 @@ public:
     // Records in the order of time; one that goes back is taken for the newest instant. False:
     // these are no whole records, and nothing of them is kept.
     bool record(std::string_view bytes);
-    // As if nothing had been recorded from that instant on.
+    // As if nothing had been recorded after that instant.
     void cut(double t);
     TapeState at(double t) const;
     // Where robots went in that time, by their index in the scene: a place for each kWayStep.

@@ -47,9 +47,10 @@ struct RunOrder {
     std::string target;                // that bus, as a person names it
     std::string recording;             // file that it is recorded in; empty: none
     std::optional<talk::PastOf> past;  // it continues from there
-    bool keep_poses = false;           // robots are at rest where they were before
-    bool keep_objects = false;         // what hands did to objects of this world is done again
-    bool paused = true;                // at first
+    nlohmann::json set_then = nlohmann::json::array();  // PlanSetting: of its plan, there
+    bool keep_poses = false;                            // robots are at rest where they were before
+    bool keep_objects = false;  // what hands did to objects of this world is done again
+    bool paused = true;         // at first
 };
 
 // The process of a run, as it is held: a child, or what a test makes of it.

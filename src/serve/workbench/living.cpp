@@ -4,7 +4,9 @@
 
 #include "serve/workbench/workbench.hpp"
 
+#include "base/seconds.hpp"
 #include "base/text.hpp"
+#include "record/replay.hpp"
 #include "serve/json.hpp"
 
 namespace vagus::serve {
@@ -119,9 +121,9 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
     order.keep_objects = keep_poses && !world_has_changed();
     if (!keep_poses) run_is_over_ = placed_by_hand_ = false;
     loaded_by_world_.clear();
-    continues_at_.reset();
-    if (order.past) continues_at_ = order.past->t;
-    if (!continues_at_) record_plan(order);
+    continues_.reset();
+    if (order.past && order.past->t) continues_ = {*order.past->t, order.set_then};
+    if (!continues_) record_plan(order);
     if (!order.past) {
         const auto text = files_.text(project_->world);
         note_opened_world(text.ok() ? text.value() : "");
@@ -133,14 +135,23 @@ Status Workbench::open_world(RunOrder order, bool keep_poses) {
 
 void Workbench::perform(const life::ConnectWorld&) {
     loaded_by_world_ = run_.programs();
-    if (const auto t = std::exchange(continues_at_, std::nullopt)) {
-        history_.continue_from(*t);
-        std::vector<std::string> plans = run_.changed_since();
-        std::erase_if(plans, [](const std::string& file) { return kind_of_file(file) != "plan"; });
-        if (!plans.empty()) run_.change_plan(plans);
-    }
+    if (const auto continues = std::exchange(continues_, std::nullopt)) take_changes(*continues);
     target_.connect(run_, "sim", "Simulator", "simulator", now_);
     desk_.topics().touch("robot");
+}
+
+// The run is at the instant that it continues from: what has been changed since counts from here.
+void Workbench::take_changes(const Continues& continues) {
+    history_.continue_from(seconds_of(record::instant_of(from_seconds(continues.t))));
+    std::vector<std::string> plans = run_.changed_since();
+    std::erase_if(plans, [](const std::string& file) { return kind_of_file(file) != "plan"; });
+    if (!plans.empty()) run_.change_plan(plans);
+    for (const Json& one : continues.set) {
+        const std::string name = one["name"];
+        run_.set_variable(one["level"], name, one["value"], [this, name](const std::string& why) {
+            if (!why.empty()) say("error", name + " keeps the value that it had then: " + why);
+        });
+    }
 }
 
 void Workbench::perform(const life::LoadNodes& load) {

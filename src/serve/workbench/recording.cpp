@@ -121,6 +121,7 @@ void Workbench::continue_run(const Call& call, const std::string& recording) {
     }
     RunOrder order = then->second;
     order.past = talk::PastOf{recording, call.in["t"]};
+    order.set_then = call.in.value("set", Json::array());
     begin_past(call, std::move(order), !call.in.value("paused", false));
 }
 

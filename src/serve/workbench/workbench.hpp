@@ -84,6 +84,12 @@ struct Figures {
     size_t missing_stops = 0;  // nodes that the last end did not read back as stopped
 };
 
+// What a run that continues from an instant of the one before takes on there.
+struct Continues {
+    double t = 0;
+    Json set = Json::array();  // PlanSetting
+};
+
 class Workbench {
 public:
     Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& places);
@@ -279,6 +285,7 @@ private:
     void perform(const life::Action& action);
     void perform(const life::OpenRunner& open);
     void perform(const life::ConnectWorld&);
+    void take_changes(const Continues& continues);
     void perform(const life::LoadNodes& load);
     void perform(const life::LetNodesGo& go);
     void perform(const life::BeginRun&);
@@ -318,7 +325,7 @@ private:
     Time history_since_{};  // of a bus
     Recordings recordings_;
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
-    std::optional<double> continues_at_;        // the run that is being opened
+    std::optional<Continues> continues_;        // the run that is being opened
     WhyDesk whys_;
     TurningDesk turnings_;
     LogDesk logs_;

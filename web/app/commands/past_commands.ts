@@ -159,8 +159,10 @@ function scriptLine(studio: Studio): { doc: string; line: number } | null {
 
 /** The run begins again, comes to that instant, and goes another way from there. */
 async function continueFrom(studio: Studio, paused: boolean): Promise<void> {
-  const t = studio.past.at;
-  if (t !== null) await studio.send('run.continue', { t, paused });
+  const { at: t, plan, settings } = studio.past;
+  if (t === null) return;
+  const set = settings.of(plan?.levels ?? []);
+  await studio.send('run.continue', { t, paused, ...(set.length === 0 ? {} : { set }) });
 }
 
 /** Runs a recorded run again: its timeline is that of the run. One that cannot be is shown as it was recorded. */

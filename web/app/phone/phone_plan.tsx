@@ -32,7 +32,7 @@ export default function PhonePlan() {
         <>
           <ActiveActor level={level} t={plan.t} state={plan.state} />
           <PlanWatchers supervisors={level.supervisors} />
-          <PlanVariables level={last} variables={level.variables} />
+          <PlanVariables level={last} path={level.path} variables={level.variables} />
         </>
       ) : null}
       {plan.state === 'ended' && plan.result ? (

@@ -35,7 +35,15 @@ export const planWords = {
   change: {
     takes:
       'Saving changes the running plan at once. What is active keeps its values until it starts again.',
-    then: '“Run from here” uses this change. What is active at that instant keeps its values until it starts again.',
+    then: '“Run from here” uses this change.',
+    kept: (actor: string, since: string) =>
+      `${actor} keeps the values with which it started at ${since} s.`,
+    fromStart: (since: string) => `Run from ${since} s`,
+    holds: (name: string, value: string) => `${name} is ${value} at this instant.`,
+    setThen: (value: string) => `Set it to ${value}`,
+    sets: (name: string, to: string, then: string) =>
+      `“Run from here” sets ${name} to ${to}; it is ${then} at this instant.`,
+    asThen: (value: string) => `Keep ${value}`,
     cannot:
       'The running plan cannot take this change; it continues unchanged until the next start:',
     refused: 'The running plan could not take what was saved; it continues unchanged:',

@@ -6,10 +6,10 @@ import { partOf } from '../../../core/paths';
 import { usePastTime } from '../../past_hooks';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
-import { RunFromHere } from '../run_from_here';
 import { kStroke } from '../../parts/icons';
 import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
+import { PlanChangeThen } from './plan_change_then';
 
 const words = planWords.change;
 
@@ -21,20 +21,12 @@ export function PlanChange({ doc }: { doc: Doc }) {
   const past = usePastTime();
   const unsaved = useUnsaved(doc);
   const goes = plan?.state === 'running' || plan?.state === 'paused';
-  const answer = useAnswer(doc, goes && unsaved, plan);
+  const version = usePart('doc', goes && unsaved ? { doc } : null, (is) => is?.version);
+  const answer = useAnswer(doc, goes && unsaved, version, plan);
   if (!goes) return null;
   if (unsaved) {
     if (!answer?.runs) return null;
-    const differences = <ShowDifferences doc={doc} from="running" />;
-    if (past !== null) {
-      const end = (
-        <>
-          {differences}
-          <RunFromHere />
-        </>
-      );
-      return <Line good what={words.then} reasons={[]} end={end} />;
-    }
+    if (past !== null) return <PlanChangeThen doc={doc} version={version} />;
     const can = answer.reasons.length === 0;
     return (
       <Line
@@ -43,7 +35,7 @@ export function PlanChange({ doc }: { doc: Doc }) {
         reasons={answer.reasons}
         end={
           <>
-            {differences}
+            <ShowDifferences doc={doc} from="running" />
             <Button small disabled={!drives} onClick={() => studio.registry.run('file.save')}>
               {words.save}
             </Button>
@@ -109,10 +101,10 @@ function useUnsaved(doc: Doc): boolean {
 function useAnswer(
   doc: Doc,
   asks: boolean,
+  version: number | undefined,
   plan: Topics['plan']['is'] | undefined,
 ): ChangeAnswer | null {
   const studio = useStudio();
-  const version = usePart('doc', asks ? { doc } : null, (is) => is?.version);
   const active = plan?.levels.map((level) => `${level.path} ${level.activation}`).join(' ');
   const [answer, setAnswer] = useState<ChangeAnswer | null>(null);
   const question = useRef<ChangeQuestion | null>(null);

@@ -11,6 +11,7 @@ import { CoverageSummary } from './coverage/coverage';
 import { PlanChange } from './plan_change';
 import { planDeskOf } from './plan_desk';
 import { PlanLive } from './plan_live';
+import { PlanSettings } from './plan_settings';
 import { togglePlanOption, usePlanOptions } from './plan_options';
 import { PlanTools } from './plan_tools';
 import { TryBar } from './try/late_bar';
@@ -30,6 +31,7 @@ export default function PlanDocument({ doc }: { doc: Doc }) {
       <div className="plan__main">
         <PlanTools doc={doc} />
         <DiskNotice doc={doc} more={<ShowDifferences doc={doc} from="disk" />} />
+        <PlanSettings doc={doc} />
         <PlanChange doc={doc} />
         <Differences doc={doc} />
         <Tried doc={doc} />

@@ -40,7 +40,7 @@ export function PlanLive({ doc }: { doc: Doc }) {
           <>
             {state === 'ended' ? null : <ActiveActor level={level} t={plan.t} state={plan.state} />}
             <PlanWatchers supervisors={level.supervisors} />
-            <PlanVariables level={shown} variables={level.variables} />
+            <PlanVariables level={shown} path={level.path} variables={level.variables} />
           </>
         ) : null}
         {state === 'none' ? <Blank title={words.none}>{words.noneHelp}</Blank> : null}

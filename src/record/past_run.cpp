@@ -78,7 +78,8 @@ Status check_lived(const PastRun& past, const std::string& path) {
     }
     TRY(check_no_fleet(past.about, path,
                        ", which the studio does not run; `vagus replay` runs it again"));
-    if (past.about.verb != kStudioVerb && past.about.plan.empty()) {
+    const bool loads_first = past.about.verb == kStudioVerb || past.about.verb == kTestVerb;
+    if (!loads_first && past.about.plan.empty()) {
         return Error{Code::Refused, path +
                                         ": is of a world without a plan, recorded by `vagus "
                                         "sim`; `vagus replay` runs it again"};

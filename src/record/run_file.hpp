@@ -22,6 +22,7 @@
 namespace vagus::record {
 
 constexpr std::string_view kStudioVerb = "studio";
+constexpr std::string_view kTestVerb = "test";  // of a world without a plan
 constexpr std::string_view kDebugVerb = "plan debug";
 constexpr std::string_view kNetVerb = "net record";
 constexpr std::string_view kBusKind = "bus";
@@ -29,7 +30,7 @@ constexpr std::string_view kBusKind = "bus";
 // Paths are names of attachments.
 struct RunFile {
     std::string kind = "simulated";         // or kBusKind
-    std::string verb = {};                  // "plan run", "sim", kDebugVerb, kNetVerb, kStudioVerb
+    std::string verb = {};                  // "plan run", "sim", or one of those above
     std::vector<std::string> command = {};  // as it was typed, for people
     std::string plan = {};
     std::string world = {};
@@ -44,7 +45,7 @@ struct RunFile {
     std::string answers = {};
     std::string chaos = {};  // the list of faults as JSON, with those that were drawn; empty: none
     std::vector<std::string> poses = {};
-    std::vector<std::string> loads = {};  // --load of sim
+    std::vector<std::string> loads = {};  // --load of sim, scripts of a test
     // Of a world whose robots have projects of their own: their names, in the order of the file.
     std::vector<std::string> robots = {};
 

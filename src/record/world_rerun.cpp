@@ -20,23 +20,22 @@ public:
 
     Status prepare() override {
         const std::string world = folder_.path_of(about_.world);
+        const session::SimOptions options = TRY(options_of_run());
         if (is_of_studio()) {
-            own_ = std::make_unique<session::SimSession>(TRY(session::open_sim(world, {})));
-            (void)own_->settle();
-            own_->world().stops_with_nodes();
-            return check_inputs();
+            own_ = std::make_unique<session::SimSession>(TRY(session::open_sim(world, options)));
+        } else {
+            robots_ = TRY(embed::RobotsRun::open({.world = world, .sim = options}));
         }
-        embed::RobotsOptions options{.world = world};
-        if (!about_.seed.empty()) options.sim.world.seed = TRY(embed::parse_seed(about_.seed));
-        if (!about_.chaos.empty()) {
-            options.sim.world.chaos = TRY(embed::read_chaos_words(about_.chaos));
-        }
-        robots_ = TRY(embed::RobotsRun::open(options));
         for (const std::string& one : about_.loads) {
             const std::string path = folder_.path_of(one);
             const std::string text = TRY(read_file(path));
-            robots_->buses().common().load(path, text);
+            session()->load(path, text);
         }
+        if (is_of_studio()) {
+            (void)own_->settle();
+            own_->world().stops_with_nodes();
+        }
+        if (about_.verb == kTestVerb) (void)robots_->buses().settle();
         return check_inputs();
     }
 
@@ -67,6 +66,18 @@ public:
     }
 
 private:
+    Result<session::SimOptions> options_of_run() const {
+        session::SimOptions options;
+        if (!about_.seed.empty()) options.world.seed = TRY(embed::parse_seed(about_.seed));
+        for (const std::string& pose : about_.poses) {
+            options.world.starts.push_back(TRY(embed::parse_pose(pose)));
+        }
+        if (!about_.chaos.empty()) {
+            options.world.chaos = TRY(embed::read_chaos_words(about_.chaos));
+        }
+        return options;
+    }
+
     Result<Ended> run_to_its_end(Tape& tape) {
         Recorder recorder(tape, format_run(about_));
         recorder_ = &recorder;

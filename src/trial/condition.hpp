@@ -31,6 +31,11 @@ public:
     // Which variables, actors and events the plan has, and whether there is a world. The Error
     // names what is unknown, and the nearest that is not.
     Status bind(const plan::Graph& graph, bool has_world);
+    // In a world without a plan: there are no variables, actors and supervisors then, and `event`
+    // is one of the robot's bus.
+    Status bind_without_plan();
+    // Then, once the scripts run: which user events there are on that bus. The Error as of bind().
+    Status check_events(const std::vector<std::string>& known) const;
 
     const std::string& text() const { return formula_.text(); }
     const std::vector<Name>& names() const { return names_; }
@@ -40,6 +45,7 @@ public:
 
 private:
     explicit Condition(plan::WordFormula formula) : formula_(std::move(formula)) {}
+    Status bind_names(const plan::GraphPlan* plan, bool has_world);
     Status check_texts(const plan::Graph& graph) const;
 
     plan::WordFormula formula_;

@@ -77,6 +77,33 @@ TEST(Condition, CallsThatAreWrittenWrongAreExplained) {
     EXPECT_NE(error_of("contact <", plan), "");
 }
 
+std::string error_without_plan(std::string_view text) {
+    auto parsed = Condition::parse(text);
+    if (!parsed.ok()) return parsed.error().what;
+    const Status bound = parsed.value().bind_without_plan();
+    if (!bound.ok()) return bound.error().what;
+    const Status known = parsed.value().check_events({"clear", "turning"});
+    return known.ok() ? "" : known.error().what;
+}
+
+TEST(Condition, WithoutAPlanThereAreTheWorldAndTheEventsOfTheBus) {
+    EXPECT_EQ(error_without_plan("t < 3 and x > 0.5 and contact == 0 and bus < 50"), "");
+    EXPECT_EQ(error_without_plan("node('thymio-II', 'free') > 2 and event == 'turning'"), "");
+    EXPECT_EQ(error_without_plan("event != '' and 'clear' == event"), "");
+    EXPECT_EQ(error_without_plan("event == 'turnin'"),
+              "no script on the robot's bus knows an event \"turnin\"; did you mean turning?");
+    const std::string instead =
+        "\" is of a plan, and there is none; write a signal of the world, as contact, event or "
+        "node(\"NODE\", \"NAME\")";
+    EXPECT_EQ(error_without_plan("actor == 'a'"), "\"actor" + instead);
+    EXPECT_EQ(error_without_plan("variable('x') > 1"), "\"variable('x')" + instead);
+    EXPECT_EQ(error_without_plan("contac < 2"),
+              "there is no plan, and no signal \"contac\"; did you mean contact?");
+    EXPECT_EQ(error_without_plan("echo < 2"),
+              "there is no plan, and no signal \"echo\"; write node(\"NODE\", \"echo\") for a "
+              "variable of a script, or a signal of `vagus test --signals`");
+}
+
 const plan::Template kWatches{.name = "Watches",
                               .kind = plan::Kind::Supervisor,
                               .outcomes = {{.name = "LaneNotFree"}, {.name = "Near"}}};

@@ -130,7 +130,7 @@ Status Continued::choose_bus(const std::string& robot) {
 Status Continued::bind() {
     if (bus_.plan != nullptr) return condition_.bind(bus_.plan->graph(), true);
     no_plan_.plans.emplace_back();
-    return condition_.bind(no_plan_, true);
+    return condition_.bind_without_plan();
 }
 
 Result<RunEnd> Continued::as_it_was() {

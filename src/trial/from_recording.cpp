@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
 
 #include "base/json.hpp"
 #include "base/text.hpp"
@@ -12,21 +10,12 @@
 #include "record/damage.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
+#include "trial/draft_text.hpp"
+#include "trial/from_scripts.hpp"
 
 namespace vagus::trial {
 
 namespace {
-
-std::string last_part(const std::string& path) {
-    return std::filesystem::path(path).filename().string();
-}
-
-// A file of the recording as a test beside its plan names it.
-std::string beside(const std::string& plan, const std::string& name) {
-    if (name.empty()) return "";
-    const std::filesystem::path folder = std::filesystem::path(plan).parent_path();
-    return std::filesystem::path(name).lexically_relative(folder.empty() ? "." : folder).string();
-}
 
 std::string text_at(const JsonValue& json, std::string_view key) {
     const JsonValue* const value = json.find(key);
@@ -68,14 +57,6 @@ struct Recorded {
     size_t inputs = 0;
 };
 
-std::string seed_of(const mcap::Reader& reader, const record::RunFile& run) {
-    const mcap::Attachment* const world = reader.attachment(run.world);
-    if (!run.seed.empty() || world == nullptr) return run.seed;
-    const auto json = read_json(world->data);
-    const auto* const tree = std::get_if<JsonValue>(&json);
-    return tree == nullptr ? "" : text_at(*tree, "seed");
-}
-
 Result<Recorded> read_recorded(const mcap::Reader& reader) {
     Recorded recorded;
     std::string run;
@@ -98,16 +79,6 @@ Result<Recorded> read_recorded(const mcap::Reader& reader) {
     recorded.run = TRY(record::read_run(run, reader.name()));
     recorded.seed = seed_of(reader, recorded.run);
     return recorded;
-}
-
-// 1 % of it, or finer, so that the numbers are those that a person would write.
-double round_up(double seconds) {
-    const double step = seconds > 20 ? 1 : 0.1;
-    return std::ceil(seconds * kRoom / step) * step;
-}
-
-std::string number(double value) {
-    return plan::text_of(std::round(value * 10) / 10);
 }
 
 std::string quoted_list(const std::vector<Told::Came>& came) {
@@ -135,10 +106,10 @@ std::vector<std::string> expectations(const Told& told, bool timed_out, bool unt
                                     json_quote("actor == '" + last.actor + "'")));
     }
     if (untouched) {
-        lines.emplace_back(R"({ "always": "contact == 0", "help": "touches nothing" })");
+        lines.emplace_back(kUntouched);
     }
     if (timed_out) {
-        lines.emplace_back("{ \"ends\": \"MaxTime\" }");
+        lines.emplace_back(kTimeWasOver);
     } else {
         lines.push_back(fmt::format("{{ \"ends\": {}{} }}", json_quote(told.ends),
                                     told.by.empty() || told.ends != "Interrupted"
@@ -152,45 +123,19 @@ std::vector<std::string> expectations(const Told& told, bool timed_out, bool unt
 std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft, bool timed_out,
                                     bool untouched, const std::string& name) {
     const record::RunFile& run = recorded.run;
-    const std::string help = "Made from " + last_part(name) + ": trim it to what matters.";
-    std::vector<std::string> members = {"\"format\": \"vagus-test/1\"",
-                                        "\"help\": " + json_quote(help),
-                                        "\"plan\": " + json_quote(draft.plan)};
+    std::vector<std::string> members = first_members(name);
+    members.push_back("\"plan\": " + json_quote(draft.plan));
     if (!draft.world.empty()) members.push_back("\"world\": " + json_quote(draft.world));
     if (!run.robot.empty()) members.push_back("\"robot\": " + json_quote(run.robot));
-    std::string toolboxes, set, expect;
-    for (const std::string& one : run.toolboxes) {
-        toolboxes += (toolboxes.empty() ? "" : ", ") + json_quote(beside(run.plan, one));
-    }
-    if (!toolboxes.empty()) members.push_back("\"toolboxes\": [" + toolboxes + "]");
+    std::string set;
+    add_files(members, "toolboxes", run.plan, run.toolboxes);
     for (const std::string& one : run.set) set += (set.empty() ? "" : ", ") + set_member(one);
     if (!set.empty()) members.push_back("\"set\": { " + set + " }");
-    members.push_back(
-        fmt::format("\"seeds\": [{0}, {0}]", recorded.seed.empty() ? "1" : recorded.seed));
+    members.push_back(seeds_member(recorded.seed));
     const double end = recorded.told.end;
     members.push_back("\"max_time\": " + number(timed_out ? end : round_up(end)));
-    for (const std::string& line : expectations(recorded.told, timed_out, untouched)) {
-        expect += (expect.empty() ? "\n    " : ",\n    ") + line;
-    }
-    members.push_back("\"expect\": [" + expect + "\n  ]");
+    members.push_back(expect_member(expectations(recorded.told, timed_out, untouched)));
     return members;
-}
-
-// What of the run a test does not do again.
-std::vector<std::string> hints_of(const Recorded& recorded) {
-    std::vector<std::string> hints;
-    if (recorded.inputs > 0) {
-        hints.push_back(fmt::format(
-            "{} times somebody did something to that run (/vagus/input); a test does not: put what "
-            "is to happen into the timeline of the world",
-            recorded.inputs));
-    }
-    if (!recorded.run.poses.empty()) {
-        hints.emplace_back(
-            "the run began at a place of its own (--pose); the test begins where the world says: "
-            "add \"starts\"");
-    }
-    return hints;
 }
 
 }  // namespace
@@ -199,19 +144,16 @@ Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options
     const Recorded recorded = TRY(read_recorded(reader));
     const Told& told = recorded.told;
     TRY(record::check_no_fleet(recorded.run, reader.name(),
-                               "; a test is of one plan and its robot: record that with `vagus "
-                               "plan run … --record FILE`"));
-    if (recorded.run.plan.empty()) {
-        return Error{Code::Refused, reader.name() +
-                                        ": is the recording of a world without a plan; a test is "
-                                        "of a plan: record with `vagus plan run … --record FILE`"};
-    }
+                               "; a test is of one robot, with a plan or without: record that with "
+                               "`vagus plan run … --record FILE` or `vagus sim … --record FILE`"));
     if (recorded.run.is_of_bus()) {
         return Error{Code::Refused, reader.name() +
                                         ": is a recording of a real bus, and a test runs in a "
                                         "world: record the plan with `vagus plan run … --world "
-                                        "WORLD --record FILE`"};
+                                        "WORLD --record FILE`, or scripts with `vagus sim WORLD "
+                                        "--record FILE`"};
     }
+    if (recorded.run.plan.empty()) return draft_script_test(reader, options);
     // It goes on, or its time or a person ended it: a test of what was until then.
     const bool timed_out = told.ends.empty() || (told.ends == "Interrupted" && told.by.empty());
     if (told.came.empty()) {
@@ -221,14 +163,9 @@ Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options
     }
     Draft draft{.plan = last_part(recorded.run.plan),
                 .world = beside(recorded.run.plan, recorded.run.world)};
-    draft.text = "{";
     const bool untouched = options.untouched && !draft.world.empty();
-    for (const std::string& member :
-         members_of(recorded, draft, timed_out, untouched, reader.name())) {
-        draft.text += (draft.text.size() > 1 ? ",\n  " : "\n  ") + member;
-    }
-    draft.text += "\n}\n";
-    draft.hints = hints_of(recorded);
+    draft.text = test_text(members_of(recorded, draft, timed_out, untouched, reader.name()));
+    draft.hints = hints_of(recorded.run, recorded.inputs);
     return draft;
 }
 

@@ -22,8 +22,8 @@ std::string_view way_of(const run::Ended& ended) {
     return ended.timed_out ? "MaxTime" : plan::name_of(ended.result);
 }
 
-Judge::Judge(const TestFile& test, const plan::Graph& graph, session::PlanWorld* world)
-    : readings_(graph, read_world_of(world)) {
+Judge::Judge(const TestFile& test, const plan::Graph& graph, const ReadWorld& world)
+    : readings_(graph, world) {
     for (const Expectation& one : test.expect) cases_.push_back({.expectation = &one});
 }
 
@@ -47,6 +47,11 @@ void Judge::line(const plan::TraceEvent& event) {
         follow_order(event, *started);
     }
     if (readings_.are_asked()) ask();
+}
+
+void Judge::event(Time at, std::string_view name) {
+    readings_.event(at, name);
+    ask();
 }
 
 void Judge::instant() {
@@ -98,7 +103,7 @@ void Judge::fail(Case& one, Time at, std::string what) {
     one.verdict = {.as_expected = false, .at = at, .what = std::move(what)};
 }
 
-// The values of its names, and the actor that runs.
+// The values of its names, and what the robot was at: the actor that runs, or its place.
 std::string Judge::values_of(const Condition& condition) const {
     std::string text;
     const auto add = [&](const Condition::Name& name) {
@@ -108,8 +113,11 @@ std::string Judge::values_of(const Condition& condition) const {
                             plan::in_words(value.value()));
     };
     for (const Condition::Name& name : condition.names()) add(name);
-    if (!condition.uses(SignalId::Actor)) {
-        add({{.shown = "actor"}, find_signal("actor")});
+    const auto also = readings_.has_plan() ? std::vector<std::string>{"actor"}
+                                           : std::vector<std::string>{"x", "y"};
+    for (const std::string& one : also) {
+        const Signal* const signal = find_signal(one);
+        if (!condition.uses(signal->id)) add({{.shown = one}, signal});
     }
     return text;
 }

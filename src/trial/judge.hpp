@@ -1,5 +1,6 @@
 // Holds a run against what its test expects. At one instant first the lines of the trace are taken,
-// in their order, then the world as it is when bodies have moved.
+// in their order, then the world as it is when bodies have moved. In a world without a plan user
+// events are what lines are beside one.
 //
 //     Judge judge(test, graph, world);
 //     judge.line(event);                             // as it comes
@@ -28,11 +29,12 @@ struct Verdict {
 class Judge {
 public:
     // All are borrowed; conditions are bound (Condition::bind).
-    Judge(const TestFile& test, const plan::Graph& graph, session::PlanWorld* world);
+    Judge(const TestFile& test, const plan::Graph& graph, const ReadWorld& world);
 
     // The first word of a node that its condition names and that is not there.
     Status check(const Expectation& one) const;
     void line(const plan::TraceEvent& event);
+    void event(Time at, std::string_view name);
     void instant();
     // One for each expectation, in their order.
     std::vector<Verdict> end(const run::Ended& ended);

@@ -16,7 +16,7 @@
 namespace vagus::trial {
 
 struct KeptPlace {
-    std::string test;     // where the test is to lie: beside its plan
+    std::string test;     // where the test is to lie: beside its plan, or its world
     std::string scratch;  // a file for the recording of that one run
 };
 
@@ -25,7 +25,7 @@ struct KeptRun {
     bool differs = false;  // from the beginning the run was another one than the recorded one
 };
 
-// Where nothing touched the robot the test expects that, too. A plan that cannot be run now is
+// Where nothing touched the robot the test expects that, too. A run that is not possible now is
 // drafted from its recording alone. The Error says why there can be no test of it.
 Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place);
 

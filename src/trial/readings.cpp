@@ -44,6 +44,11 @@ void Readings::line(const plan::TraceEvent& event) {
     }
 }
 
+void Readings::event(Time at, std::string_view name) {
+    now_ = at;
+    event_ = name;
+}
+
 void Readings::instant() {
     now_ = session().now();
     event_.clear();
@@ -95,36 +100,51 @@ plan::Value Readings::signal(SignalId id) const {
 
 // ---- words of nodes ----
 
-// Of the plan's robot; for a robot's name before it, "thymio/thymio-II", of that one.
-const session::NodeState* Readings::find_node(std::string_view name,
-                                              const std::vector<session::NodeState>& nodes) const {
-    sim::RobotId robot = world_.robot;
-    const size_t slash = name.find('/');
-    if (slash != std::string_view::npos) {
-        const auto found = session().world().find_robot(name.substr(0, slash));
-        if (!found) return nullptr;
-        robot = *found;
-        name.remove_prefix(slash + 1);
-    }
+namespace {
+
+const session::NodeState* find_node(const std::vector<session::NodeState>& nodes,
+                                    sim::RobotId robot, std::string_view name) {
     for (const session::NodeState& node : nodes) {
         if (node.robot == robot && node.name == name) return &node;
     }
     return nullptr;
 }
 
-Result<int16_t> Readings::word(const Condition::Name& name) const {
-    const std::vector<session::NodeState> nodes = session().nodes();
-    const session::NodeState* const node = find_node(name.node, nodes);
-    if (node == nullptr) {
-        std::vector<std::string> names;
-        for (const session::NodeState& one : nodes) {
-            if (one.robot == world_.robot) names.push_back(one.name);
-        }
-        return Error{Code::NotFound, fmt::format("{}: the robot has no node \"{}\"; {}", name.shown,
-                                                 name.node, known_instead(name.node, names))};
+Error no_such_node(const Condition::Name& name, sim::RobotId robot, std::string_view node,
+                   const std::vector<session::NodeState>& nodes) {
+    std::vector<std::string> names;
+    for (const session::NodeState& one : nodes) {
+        if (one.robot == robot) names.push_back(one.name);
     }
+    return Error{Code::NotFound, fmt::format("{}: the robot has no node \"{}\"; {}", name.shown,
+                                             node, known_instead(std::string(node), names))};
+}
+
+}  // namespace
+
+// Of the robot that signals are about; for a robot's name before it, "thymio/thymio-II", of that
+// one.
+Result<int16_t> Readings::word(const Condition::Name& name) const {
+    sim::RobotId robot = world_.robot;
+    std::string_view its_name = name.node;
+    const size_t slash = its_name.find('/');
+    if (slash != std::string_view::npos) {
+        const auto found = session().world().find_robot(its_name.substr(0, slash));
+        if (!found) return no_such_node(name, robot, its_name, session().nodes());
+        robot = *found;
+        its_name.remove_prefix(slash + 1);
+    }
+    const session::SimSession& on = world_.buses != nullptr ? world_.buses->of(robot) : session();
+    const std::vector<session::NodeState> nodes = on.nodes();
+    const session::NodeState* const node = find_node(nodes, robot, its_name);
+    if (node == nullptr) return no_such_node(name, robot, its_name, nodes);
+    return word_of(name, on, *node);
+}
+
+Result<int16_t> Readings::word_of(const Condition::Name& name, const session::SimSession& on,
+                                  const session::NodeState& node) {
     std::vector<std::string> known;
-    const std::span<const int16_t> memory = session().world().variables_of(node->id);
+    const std::span<const int16_t> memory = on.world().variables_of(node.id);
     const auto take = [&](const std::string& its, size_t address,
                           size_t size) -> std::optional<Result<int16_t>> {
         known.push_back(its);
@@ -136,11 +156,11 @@ Result<int16_t> Readings::word(const Condition::Name& name) const {
             Code::NotFound,
             fmt::format("{}: \"{}\" has {} elements, counted from 0", name.shown, its, size)});
     };
-    if (const aesl::Program* program = session().program(node->id)) {
+    if (const aesl::Program* program = on.program(node.id)) {
         for (const aesl::VariablePlace& place : program->variables) {
             if (auto found = take(place.name, place.address, place.size)) return *found;
         }
-    } else if (const aesl::Target* target = session().target(node->id)) {
+    } else if (const aesl::Target* target = on.target(node.id)) {
         size_t address = 0;
         for (const aesl::NamedVariable& variable : target->variables) {
             if (auto found = take(variable.name, address, variable.size)) return *found;

@@ -1,5 +1,6 @@
 // What conditions read, as it is now in a run, and when they are asked: after each line of the
-// trace, and each kAskedEvery; from when the first actor of the plan starts to the plan's end.
+// trace, and each kAskedEvery; from when the first actor of the plan starts to the plan's end. In a
+// world without a plan from its beginning, and at each user event of the robot's bus.
 //
 //     Readings readings(graph, read_world_of(world));    // world: nullptr without one
 //     readings.line(event);                          // each line of the trace
@@ -16,6 +17,7 @@
 #include "plan/trace.hpp"
 #include "run/traced_variables.hpp"
 #include "session/plan_world.hpp"
+#include "session/world_buses.hpp"
 #include "trial/condition.hpp"
 
 namespace vagus::trial {
@@ -26,6 +28,7 @@ constexpr Duration kAskedEvery = std::chrono::milliseconds(20);
 struct ReadWorld {
     session::SimSession* session = nullptr;
     sim::RobotId robot = {};
+    const session::WorldBuses* buses = nullptr;  // of the other robots, if these have their own
 };
 ReadWorld read_world_of(session::PlanWorld* world);
 
@@ -33,9 +36,14 @@ class Readings {
 public:
     // Both are borrowed. A graph whose plan has no actors is that of a world without a plan.
     Readings(const plan::Graph& graph, const ReadWorld& world)
-        : variables_(graph), world_(world), started_(graph.plans.front().actors.empty()) {}
+        : variables_(graph),
+          world_(world),
+          has_plan_(!graph.plans.front().actors.empty()),
+          started_(!has_plan_) {}
 
     void line(const plan::TraceEvent& event);
+    // A user event, where no plan raises any.
+    void event(Time at, std::string_view name);
     // The line of an event is over; bodies have moved.
     void instant();
 
@@ -45,6 +53,8 @@ public:
     bool are_asked_now() const { return are_asked() && now_ % kAskedEvery == Duration::zero(); }
     // The plan is, and its variables are gone with it.
     bool over() const { return over_; }
+    // Whether there is a plan, whose actors run.
+    bool has_plan() const { return has_plan_; }
     // Of all names of a condition, in their order.
     Result<std::vector<plan::Value>> values(const Condition& condition) const;
     // Only once the plan has started. The Error says why there is none.
@@ -56,9 +66,9 @@ private:
     plan::Value signal(SignalId id) const;
     plan::Value of_robot(SignalId id) const;
     double bus_percent() const;
-    const session::NodeState* find_node(std::string_view name,
-                                        const std::vector<session::NodeState>& nodes) const;
     Result<int16_t> word(const Condition::Name& name) const;
+    static Result<int16_t> word_of(const Condition::Name& name, const session::SimSession& on,
+                                   const session::NodeState& node);
     session::SimSession& session() const { return *world_.session; }
 
     run::TracedVariables variables_;
@@ -67,6 +77,7 @@ private:
     std::vector<std::string> actors_;  // that run, the outermost first; empty text: between two
     std::string event_;
     Duration contact_{};
+    bool has_plan_;
     bool started_;
     bool over_ = false;
 };

@@ -12,12 +12,13 @@ using plan::Type;
 
 constexpr Signal kSignals[] = {
     {SignalId::Actor, "actor", Type::String, "", false,
-     "the actor that runs, of a sub-plan too; '' between two"},
+     "the actor that runs, of a sub-plan too; '' between two; only with a plan"},
     {SignalId::Event, "event", Type::String, "", false,
-     "the event that a supervisor raises, at the line of the trace that says so; else ''"},
+     "the event that a supervisor raises, at the line of the trace that says so; without a plan "
+     "the user event that is sent on the robot's bus, at that instant; else ''"},
     {SignalId::Time, "t", Type::Float, "s", false, "time since the run began"},
-    {SignalId::X, "x", Type::Float, "m", true, "where the plan's robot is"},
-    {SignalId::Y, "y", Type::Float, "m", true, "where the plan's robot is"},
+    {SignalId::X, "x", Type::Float, "m", true, "where the robot is"},
+    {SignalId::Y, "y", Type::Float, "m", true, "where the robot is"},
     {SignalId::Angle, "angle", Type::Float, "deg", true,
      "where the robot looks, counter-clockwise from the x axis, above -180 to 180"},
     {SignalId::Contact, "contact", Type::Float, "s", true,

@@ -27,10 +27,17 @@ public:
         JsonObject in(json, "the test", complaints_);
         check_format(in, FileFormat::Test);
         test_.help = in.text("help", Need::Optional);
-        test_.plan = path(in, "plan", Need::Required);
+        has_plan_ = json.find("plan") != nullptr || json.find("world") == nullptr;
+        test_.plan = path(in, "plan", Need::Optional);
         test_.world = path(in, "world", Need::Optional);
         test_.robot = in.text("robot", Need::Optional);
-        for (const JsonValue& one : in.items("toolboxes", Need::Optional)) toolbox(in, one);
+        for (const JsonValue& one : in.items("scripts", Need::Optional)) {
+            file(in, one, "a script, as \"explore.aesl\"", test_.scripts);
+        }
+        for (const JsonValue& one : in.items("toolboxes", Need::Optional)) {
+            file(in, one, "a toolbox, as \"light.toolbox.json\"", test_.toolboxes);
+        }
+        has_plan_ ? only_without_plan(in, json) : only_with_plan(in, json);
         seeds(in);
         test_.max_time = in.number("max_time", {0.001, kMaxTimeMax, kMaxTimeUnlessSaid});
         values(in);
@@ -39,6 +46,9 @@ public:
         chaos(in);
         expectations(in);
         in.finish();
+        const bool runs_nothing = json.find("plan") == nullptr && json.find("world") == nullptr;
+        if (!runs_nothing || !complaints_.empty()) return;
+        in.complain(json.at, "the test has no \"plan\" and no \"world\"; add one of them, or both");
     }
 
 private:
@@ -55,12 +65,40 @@ private:
         return value == nullptr ? "" : beside(in, *value);
     }
 
-    void toolbox(JsonObject& in, const JsonValue& value) {
+    // `what` is what it is the path of, with an example.
+    void file(JsonObject& in, const JsonValue& value, std::string_view what,
+              std::vector<std::string>& files) {
         if (value.kind != JsonKind::String) {
-            in.complain(value.at, "expected the path of a toolbox, as \"light.toolbox.json\"");
-            return;
+            return in.complain(value.at, fmt::format("expected the path of {}", what));
         }
-        test_.toolboxes.push_back(beside(in, value));
+        files.push_back(beside(in, value));
+    }
+
+    // What says nothing in a test of a world alone is refused, so that nobody waits for it.
+    static void only_with_plan(JsonObject& in, const JsonValue& json) {
+        static constexpr std::pair<std::string_view, std::string_view> kKeys[] = {
+            {"set", "gives values to variables of a plan"},
+            {"answers", "says what actors of a plan answer"},
+            {"toolboxes", "names templates of a plan"}};
+        for (const auto& [key, why] : kKeys) needs_plan(in, json, key, why);
+    }
+
+    static void only_without_plan(JsonObject& in, const JsonValue& json) {
+        const JsonValue* const scripts = json.find("scripts");
+        if (scripts == nullptr || json.find("world") == nullptr) return;
+        in.complain(scripts->at,
+                    "\"scripts\" of the test are for a test without a \"plan\"; beside a plan "
+                    "robots run the scripts that the \"world\" names: name them there");
+    }
+
+    static void needs_plan(JsonObject& in, const JsonValue& json, std::string_view key,
+                           std::string_view why) {
+        const JsonValue* const value = json.find(key);
+        if (value == nullptr) return;
+        in.complain(value->at,
+                    fmt::format("\"{0}\" of {1} {2}, and the test has no \"plan\"; add one, or "
+                                "remove \"{0}\"",
+                                key, in.name(), why));
     }
 
     void seeds(JsonObject& in) {
@@ -211,6 +249,7 @@ private:
         made.help = in.text("help", Need::Optional);
         if (json.find("order") != nullptr) {
             order(in, made);
+            if (!has_plan_) needs_plan(in, json, "order", "names actors of a plan");
         } else if (json.find("ends") != nullptr) {
             made.ends = in.word("ends", ways_to_end(), Need::Required);
             made.by = in.text("by", Need::Optional);
@@ -220,6 +259,7 @@ private:
                                         "expect Interrupted, or leave \"by\" out",
                                         in.name()));
             }
+            if (!has_plan_) ends_without_plan(in, json);
         } else if (json.find("eventually") != nullptr) {
             made.kind = Expectation::Kind::Eventually;
             condition(in, "eventually", made);
@@ -263,20 +303,33 @@ private:
         }
     }
 
-    static void condition(JsonObject& in, std::string_view key, Expectation& made) {
+    // Scripts have no end of their own.
+    static void ends_without_plan(JsonObject& in, const JsonValue& json) {
+        needs_plan(in, json, "by", "names a supervisor of a plan");
+        const JsonValue* const ends = json.find("ends");
+        if (ends->text == kEndsMaxTime) return;
+        in.complain(ends->at, fmt::format("\"ends\" of {}: without a \"plan\" a run ends only when "
+                                          "its \"max_time\" is over; write \"{}\"",
+                                          in.name(), kEndsMaxTime));
+    }
+
+    void condition(JsonObject& in, std::string_view key, Expectation& made) const {
         const JsonValue* const value = in.find(key, JsonKind::String, Need::Required);
         if (value == nullptr) return;
-        Result<Condition> parsed = Condition::parse(value->text);
-        if (parsed.ok()) {
-            made.condition = std::move(parsed.value());
-        } else {
-            in.complain(value->at,
-                        fmt::format("\"{}\" of {}: {}", key, in.name(), parsed.error().what));
-        }
+        const Status good = parse(value->text, made);
+        if (good.ok()) return;
+        in.complain(value->at, fmt::format("\"{}\" of {}: {}", key, in.name(), good.error().what));
+    }
+
+    // What is of a plan is known only with that.
+    Status parse(const std::string& text, Expectation& made) const {
+        made.condition = TRY(Condition::parse(text));
+        return has_plan_ ? Status::done() : made.condition->bind_without_plan();
     }
 
     TestFile& test_;
     Complaints& complaints_;
+    bool has_plan_ = true;
 };
 
 std::string quoted_names(const std::vector<std::string>& names) {
@@ -288,7 +341,7 @@ std::string quoted_names(const std::vector<std::string>& names) {
 }  // namespace
 
 const std::vector<std::string_view>& ways_to_end() {
-    static const std::vector<std::string_view> kWays = {"OK", "Interrupted", "Error", "MaxTime"};
+    static const std::vector<std::string_view> kWays = {"OK", "Interrupted", "Error", kEndsMaxTime};
     return kWays;
 }
 

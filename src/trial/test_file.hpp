@@ -1,5 +1,5 @@
-// A test of behaviour, NAME.test.json: a plan, perhaps in a world, with what is expected of each of
-// its runs (docs/formats.md, "Test file").
+// A test of behaviour, NAME.test.json: a plan, perhaps in a world, or a world whose robots run their
+// scripts, with what is expected of each of its runs (docs/formats.md, "Test file").
 //
 //     const TestFile test = TRY(read_test(text, "examples/follow-wall/Wall.test.json"));
 //     for (uint64_t seed = test.seeds.first; seed <= test.seeds.last; ++seed) run(test, seed);
@@ -54,7 +54,8 @@ struct Expectation {
     std::string by = {};                      // the supervisor that ended it; empty: any
 };
 
-// "OK", "Interrupted", "Error", and "MaxTime": its time was over.
+// "OK", "Interrupted", "Error", and kEndsMaxTime: its time was over.
+constexpr std::string_view kEndsMaxTime = "MaxTime";
 const std::vector<std::string_view>& ways_to_end();
 
 // `always "contact < 2"`: what is expected, for people.
@@ -63,10 +64,12 @@ std::string text_of(const Expectation& expectation);
 struct TestFile {
     std::string path;  // as it was opened
     std::string help = {};
-    std::string plan = {};   // paths as seen from where the test was opened
-    std::string world = {};  // empty: the plan alone, in virtual time
+    // Paths as seen from where the test was opened. One of plan and world is there.
+    std::string plan = {};                  // empty: the world alone, with its scripts
+    std::string world = {};                 // empty: the plan alone, in virtual time
+    std::vector<std::string> scripts = {};  // without a plan: --load of `vagus sim`
     std::vector<std::string> toolboxes = {};
-    std::string robot = {};  // that the plan drives; empty: the only one
+    std::string robot = {};  // that the plan drives, or signals are about; empty: the only one
     SeedRange seeds = {};
     double max_time = kMaxTimeUnlessSaid;  // s
     std::vector<std::string> set = {};     // NAME=VALUE

@@ -46,6 +46,65 @@ TEST(TestFile, IsReadWithAllItsKeys) {
     EXPECT_EQ(test.expect[4].at.line, 14);
 }
 
+// ---- without a plan ----
+
+std::string error_of_world_alone(std::string_view members,
+                                 std::string_view expect = R"({"ends":"MaxTime"})") {
+    const auto read = read_test(
+        fmt::format(R"({{"format":"vagus-test/1",{}"expect":[{}]}})", members, expect), "t");
+    return read.ok() ? "" : read.error().what;
+}
+
+TEST(TestFile, AWorldAloneIsEnough) {
+    EXPECT_EQ(error_of_world_alone(R"("world":"b.world.json","scripts":["a.aesl"],)",
+                                   R"({"always":"contact == 0"},{"ends":"MaxTime"})"),
+              "");
+    EXPECT_EQ(error_of_world_alone(""),
+              "t:1:1: the test has no \"plan\" and no \"world\"; add one of them, or both");
+    EXPECT_EQ(error_of_world_alone(R"("plann":"a.plan.json",)"),
+              "t:1:26: the test has the unknown key \"plann\"; did you mean \"plan\"?");
+}
+
+TEST(TestFile, WhatIsOfAPlanIsRefusedWithoutOne) {
+    const auto key = [](std::string_view member) {
+        return error_of_world_alone(fmt::format(R"("world":"w",{},)", member));
+    };
+    EXPECT_EQ(
+        key(R"("set":{"a":1})"),
+        "t:1:44: \"set\" of the test gives values to variables of a plan, and the test has no "
+        "\"plan\"; add one, or remove \"set\"");
+    EXPECT_EQ(key(R"("answers":{})"),
+              "t:1:48: \"answers\" of the test says what actors of a plan answer, and the test has "
+              "no \"plan\"; add one, or remove \"answers\"");
+    EXPECT_EQ(key(R"("toolboxes":["x"])"),
+              "t:1:50: \"toolboxes\" of the test names templates of a plan, and the test has no "
+              "\"plan\"; add one, or remove \"toolboxes\"");
+    const auto expected = [](std::string_view one) {
+        return error_of_world_alone(R"("world":"w",)", one);
+    };
+    EXPECT_EQ(expected(R"({"order":["a"]})"),
+              "t:1:57: \"order\" of expectation 1 names actors of a plan, and the test has no "
+              "\"plan\"; add one, or remove \"order\"");
+    EXPECT_EQ(expected(R"({"ends":"OK"})"),
+              "t:1:56: \"ends\" of expectation 1: without a \"plan\" a run ends only when its "
+              "\"max_time\" is over; write \"MaxTime\"");
+    EXPECT_EQ(expected(R"({"ends":"MaxTime","by":"a"})"),
+              "t:1:71: \"by\" of expectation 1 names a supervisor of a plan, and the test has no "
+              "\"plan\"; add one, or remove \"by\"");
+    EXPECT_EQ(
+        expected(R"({"never":"actor == 'a'"})"),
+        "t:1:57: \"never\" of expectation 1: \"actor\" is of a plan, and there is none; write "
+        "a signal of the world, as contact, event or node(\"NODE\", \"NAME\")");
+}
+
+TEST(TestFile, ScriptsAreForAWorldWithoutAPlan) {
+    EXPECT_EQ(error_of_world_alone(R"("plan":"p","world":"w","scripts":["a.aesl"],)"),
+              "t:1:59: \"scripts\" of the test are for a test without a \"plan\"; beside a plan "
+              "robots run the scripts that the \"world\" names: name them there");
+    EXPECT_EQ(error_of_world_alone(R"("world":"w","scripts":[7],)"),
+              "t:1:49: expected the path of a script, as \"explore.aesl\"");
+}
+
 // A test with these members beside the ones that it needs, and this list of expectations.
 std::string error_of(std::string_view members, std::string_view expect = R"({"ends":"OK"})") {
     const auto read =

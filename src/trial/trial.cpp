@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <numbers>
 
 #include "base/file.hpp"
 #include "base/nearest.hpp"
-#include "base/rng.hpp"
 #include "base/seconds.hpp"
 #include "embed/loaded_plan.hpp"
 #include "embed/prepared_run.hpp"
@@ -15,72 +13,14 @@
 #include "session/plan_world.hpp"
 #include "session/toolboxes.hpp"
 #include "sim/chaos_file.hpp"
-#include "sim/standing.hpp"
-#include "sim/world_file.hpp"
 #include "trial/plan_names.hpp"
 #include "trial/script_counter.hpp"
+#include "trial/script_trial.hpp"
+#include "trial/trial_errors.hpp"
 
 namespace vagus::trial {
 
 namespace {
-
-// The draw of places is a stream of its own: what else a seed gives does not hang on it.
-constexpr uint64_t kStartsStream = 0x9d2c5680;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180;
-
-Error at_expectation(const TestFile& test, const Expectation& one, const std::string& what) {
-    return {Code::BadInput, at_place(test.path, one.at, text_of(one) + ": " + what)};
-}
-
-// What the options of a run that it gives would be refused for, "--set speed=x: …", does not say
-// where they come from.
-Error in_test(const TestFile& test, const Error& error) {
-    return {error.code, error.what.starts_with("--") ? test.path + ": " + error.what : error.what};
-}
-
-// ---- where its robot begins ----
-
-Result<std::string> draw_start(const TestFile& test, uint64_t seed) {
-    const Starts& starts = *test.starts;
-    if (test.world.empty()) {
-        return Error{Code::BadInput, test.path +
-                                         ": \"starts\" puts a robot somewhere in a world; "
-                                         "give the test a \"world\""};
-    }
-    const std::string text = TRY(read_file(test.world));
-    const sim::WorldDefinition world = TRY(sim::read_world(text, test.world));
-    const auto found = std::ranges::find(world.robots, starts.robot, &sim::RobotDefinition::name);
-    if (found == world.robots.end()) {
-        std::vector<std::string> names;
-        for (const sim::RobotDefinition& robot : world.robots) names.push_back(robot.name);
-        return Error{
-            Code::NotFound,
-            fmt::format("{}: \"robot\" of \"starts\": {} has no robot \"{}\"; {}", test.path,
-                        test.world, starts.robot, known_instead(starts.robot, names))};
-    }
-    SplitMix64 random(seed ^ kStartsStream);
-    const auto between = [&random](double low, double high) {
-        return low + random.unit() * (high - low);
-    };
-    std::string stands;
-    for (int tried = 0; tried < kStartsTriedMax; ++tried) {
-        sim::RobotDefinition robot = *found;
-        robot.at.x = between(starts.low.x, starts.high.x);
-        robot.at.y = between(starts.low.y, starts.high.y);
-        const double degrees = between(starts.angle_low, starts.angle_high);
-        robot.angle = degrees * kRadiansPerDegree;
-        const auto in = sim::stands_in(robot, world);
-        if (!in) {
-            return fmt::format("{}={},{},{}", robot.name, plan::text_of(robot.at.x),
-                               plan::text_of(robot.at.y), plan::text_of(degrees));
-        }
-        stands = *in;
-    }
-    return Error{Code::Refused,
-                 fmt::format("{}: \"within\" of \"starts\": of {} places drawn there none had room "
-                             "for the robot; the last one stood in {}",
-                             test.path, kStartsTriedMax, stands)};
-}
 
 // ---- one run ----
 
@@ -169,7 +109,7 @@ private:
         prepared_->tell([](const std::string&) {});
         session::PlanWorld* const world = prepared_->world();
         if (world != nullptr) outcome_.faults = world->session().world().chaos();
-        judge_.emplace(test_, plan_->graph(), world);
+        judge_.emplace(test_, plan_->graph(), read_world_of(world));
         return world != nullptr ? check_words() : Status::done();
     }
 
@@ -240,6 +180,7 @@ Time Outcome::failed_at() const {
 }
 
 Result<Outcome> run_trial(const TestFile& test, uint64_t seed, const TrialOptions& options) {
+    if (test.plan.empty()) return run_script_trial(test, seed, options);
     return Trial(test, seed, options).run();
 }
 

@@ -12,11 +12,10 @@
 
 #include "trial/coverage.hpp"
 #include "trial/judge.hpp"
+#include "trial/starts.hpp"
 #include "trial/test_file.hpp"
 
 namespace vagus::trial {
-
-constexpr int kStartsTriedMax = 1000;  // places for a robot that are drawn at most
 
 struct TrialOptions {
     bool scripts = false;  // count lines and branches of scripts, which takes several times as long

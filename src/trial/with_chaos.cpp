@@ -33,18 +33,23 @@ Result<JsonValue> seen_from(const std::string& path, const std::string& named) {
     return json_string(relative);
 }
 
+Status set_files(JsonValue& object, std::string_view key, const std::string& path,
+                 const std::vector<std::string>& files) {
+    std::vector<JsonValue> seen;
+    for (const std::string& one : files) seen.push_back(TRY(seen_from(path, one)));
+    if (!seen.empty()) set(object, key, json_array(std::move(seen)));
+    return Status::done();
+}
+
 }  // namespace
 
 Result<std::string> with_chaos(const TestFile& test, std::string_view text,
                                const Breaking& breaking, const std::string& path) {
     JsonValue json = TRY(parse_json(text, test.path));
-    set(json, "plan", TRY(seen_from(path, test.plan)));
+    if (!test.plan.empty()) set(json, "plan", TRY(seen_from(path, test.plan)));
     set(json, "world", TRY(seen_from(path, test.world)));
-    std::vector<JsonValue> toolboxes;
-    for (const std::string& one : test.toolboxes) {
-        toolboxes.push_back(TRY(seen_from(path, one)));
-    }
-    if (!toolboxes.empty()) set(json, "toolboxes", json_array(std::move(toolboxes)));
+    TRY(set_files(json, "scripts", path, test.scripts));
+    TRY(set_files(json, "toolboxes", path, test.toolboxes));
     const auto seed = static_cast<int64_t>(breaking.seed);
     set(json, "seeds", json_array({json_integer(seed), json_integer(seed)}));
     set(json, "chaos", TRY(parse_json(sim::format_chaos(breaking.faults), path)));

@@ -252,7 +252,7 @@ export const text = {
       'past.later': 'You are not looking back.',
       'past.stepAfter': 'You are not looking back.',
       'trace.save': 'No plan has run yet.',
-      'test.keep': 'A test is of a plan, and none has run in the simulator yet.',
+      'test.keep': 'A test is of a run in the simulator, and none has begun yet.',
       'edit.': 'Open a script first.',
       'edit.find': 'Open a text first.',
       'edit.comment': 'Open a text first.',

@@ -93,7 +93,7 @@ std::vector<NamedPath> named_paths(const std::string& file, std::string_view tex
         collect.inside(*json, "ground", "image");
     } else if (kind == "test") {
         for (const char* key : {"plan", "world"}) collect.member(*json, key);
-        collect.list(*json, "toolboxes");
+        for (const char* key : {"scripts", "toolboxes"}) collect.list(*json, key);
     } else {
         collect.member(*json, "project");
     }

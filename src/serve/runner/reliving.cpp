@@ -41,6 +41,7 @@ Status Reliving::begin(talk::Open& order) {
     order.seed = past.about.seed;
     order.starts = past.about.poses;
     order.chaos = past.about.chaos;
+    for (const std::string& name : past.about.loads) order.scripts.push_back(path_of(name));
     next_ = 0;
     breakpoints_ = 0;
     past_ = std::move(past);

@@ -23,6 +23,7 @@ record::RunFile about_run(const talk::Open& order) {
     about.seed = order.seed;
     about.poses = order.starts;
     about.chaos = order.chaos;
+    about.loads = order.scripts;
     if (!order.plan.empty()) about.max_time = kPlanMaxTime;
     for (const auto& [name, value] : order.set) about.set.push_back(name + "=" + value);
     return about;

@@ -197,10 +197,26 @@ private:
 
     void fail(const std::string& why) { teller_.tell(talk::OpenFailed{number_, why}); }
 
+    // What a test says of its run, the run that shows it has, too.
+    static Result<session::SimSession> open_world(const talk::Open& order) {
+        session::SimOptions options;
+        if (!order.seed.empty()) options.world.seed = TRY(embed::parse_seed(order.seed));
+        for (const std::string& start : order.starts) {
+            options.world.starts.push_back(TRY(embed::parse_pose(start)));
+        }
+        if (!order.chaos.empty()) {
+            options.world.chaos = TRY(embed::read_chaos_words(order.chaos));
+        }
+        session::SimSession session =
+            TRY(order.world_text ? session::open_sim_text(order.world, *order.world_text, options)
+                                 : session::open_sim(order.world, options));
+        for (const std::string& path : order.scripts) session.load(path, TRY(read_file(path)));
+        return session;
+    }
+
     void run_world(const talk::Open& order) {
         RunRecording::Files read(order);
-        auto opened = order.world_text ? session::open_sim_text(order.world, *order.world_text, {})
-                                       : session::open_sim(order.world, {});
+        auto opened = open_world(order);
         if (!opened.ok()) return fail(opened.error().what);
         own_ = std::make_unique<session::SimSession>(std::move(opened.value()));
         (void)own_->settle();

@@ -95,10 +95,11 @@ struct Open {
     std::string recording = {};    // file that the run is recorded in; empty: none
     // Of a run with a past, as `plan run` has them.
     std::string seed = {};
-    std::vector<std::string> starts = {};  // "ROBOT=X,Y,DEGREES"
-    std::string chaos = {};                // faults, as JSON
-    std::optional<PastOf> past = {};       // it goes on from there: the rest is as it was then
-    std::optional<MemberOf> member = {};   // none: it is in no fleet
+    std::vector<std::string> starts = {};   // "ROBOT=X,Y,DEGREES"
+    std::string chaos = {};                 // faults, as JSON
+    std::vector<std::string> scripts = {};  // loaded beside those of the world, before it begins
+    std::optional<PastOf> past = {};        // it goes on from there: the rest is as it was then
+    std::optional<MemberOf> member = {};    // none: it is in no fleet
     static constexpr std::string_view kName = "open";
     static void layout(auto& each, auto& it) {
         each("order", it.order);
@@ -118,6 +119,7 @@ struct Open {
         each("seed", it.seed);
         each("starts", it.starts);
         each("chaos", it.chaos);
+        each("scripts", it.scripts);
         each("past", it.past);
         each("member", it.member);
     }

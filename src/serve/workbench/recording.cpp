@@ -259,10 +259,12 @@ namespace {
 constexpr size_t kTestNamesMax = 1000;  // NAME.test.json, NAME-2.test.json, …
 constexpr Duration kKeepWithin = 120s;  // then the one run of the test is not waited for any more
 
-std::string test_beside(const std::string& plan, size_t number) {
-    constexpr std::string_view kPlanEnding = ".plan.json";
-    const std::string stem =
-        plan.ends_with(kPlanEnding) ? plan.substr(0, plan.size() - kPlanEnding.size()) : plan;
+// Of a plan or, where there is none, of a world.
+std::string test_beside(const std::string& main, size_t number) {
+    std::string stem = main;
+    for (const std::string_view ending : {".plan.json", ".world.json"}) {
+        if (main.ends_with(ending)) stem.resize(main.size() - ending.size());
+    }
     return numbered(stem, number) + std::string(trial::kTestEnding);
 }
 
@@ -286,24 +288,26 @@ void Workbench::keep_test(const Call& call) {
     const auto recording = recording_of_run();
     if (!recording.ok()) return call.fail(recording.error());
     const auto order = recorded_.find(recording.value());
-    const std::string plan = order == recorded_.end() ? "" : order->second.plan;
-    keeps_.ask(call, {{"test", test_beside(plan, 1)}}, [this, call, plan](const Json& kept) {
+    std::string main;
+    if (order != recorded_.end()) main = order->second.plan;
+    if (order != recorded_.end() && main.empty()) main = order->second.world;
+    keeps_.ask(call, {{"test", test_beside(main, 1)}}, [this, call, main](const Json& kept) {
         if (!project_) return call.fail("unavailable", "the project was closed");
-        const auto path = new_test(project_->doc_of(plan), kept["text"]);
+        const auto path = new_test(project_->doc_of(main), kept["text"]);
         if (!path.ok()) return call.fail(path.error());
         call.done({{"path", path.value()}, {"differs", kept["differs"]}});
     });
 }
 
-Result<std::string> Workbench::new_test(const std::string& plan, const std::string& text) {
+Result<std::string> Workbench::new_test(const std::string& main, const std::string& text) {
     for (size_t i = 1; i <= kTestNamesMax; ++i) {
-        const std::string path = test_beside(plan, i);
+        const std::string path = test_beside(main, i);
         if (files_.exists(path)) continue;
         TRY(files_.make(path, text));
         return path;
     }
     return Error{Code::Refused,
-                 fmt::format("there are {} tests of {} already; delete some", kTestNamesMax, plan)};
+                 fmt::format("there are {} tests of {} already; delete some", kTestNamesMax, main)};
 }
 
 void Workbench::record_bus() {

@@ -237,7 +237,7 @@ private:
     void relive(const Call& call, const std::string& recording, const record::PastRun& past);
     QuestionRules keep_rules() const;
     void keep_test(const Call& call);
-    Result<std::string> new_test(const std::string& plan, const std::string& text);
+    Result<std::string> new_test(const std::string& main, const std::string& text);
     void record_plan(const RunOrder& order);
     void record_bus();
     double history_clock() const;

@@ -129,7 +129,7 @@ export function pastCommands(studio: Studio): Command[] {
       id: 'test.keep',
       title: titles['test.keep'],
       group,
-      enabled: () => drives(studio) && simulated() && hasPlan(),
+      enabled: () => drives(studio) && simulated() && (hasPlan() || known()),
       async run() {
         const { path, differs } = await studio.send('test.keep', {});
         revealDoc(studio.window, path, null);

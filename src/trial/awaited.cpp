@@ -8,6 +8,11 @@ void Awaited::line(const plan::TraceEvent& event) {
     if (readings_.are_asked()) ask();
 }
 
+void Awaited::event(Time at, std::string_view name) {
+    readings_.event(at, name);
+    ask();
+}
+
 void Awaited::instant() {
     if (readings_.over()) return;
     readings_.instant();

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "plan/trace.hpp"
 #include "trial/condition.hpp"
@@ -22,6 +23,7 @@ public:
         : condition_(condition), readings_(graph, world) {}
 
     void line(const plan::TraceEvent& event);
+    void event(Time at, std::string_view name);
     void instant();
 
     // When it first held.

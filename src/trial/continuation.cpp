@@ -178,6 +178,9 @@ Result<RunEnd> Continued::run(record::Tape& tape, Ends ends) {
     const auto line = [&awaited](const plan::TraceEvent& event) { awaited.line(event); };
     LinesOfRobot lines(bus_index_, line);
     bus_index_ == 0 ? rerun_->listen(line) : rerun_->watch_robots(&lines);
+    if (bus_.plan == nullptr) {
+        hear_events(*bus_.session, [&](Time at, const auto& name) { awaited.event(at, name); });
+    }
     rerun_->each_instant([&](Time at) {
         awaited.instant();
         const bool enough = at >= until_ || awaited.is_over();

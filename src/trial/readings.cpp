@@ -26,6 +26,14 @@ ReadWorld read_world_of(session::PlanWorld* world) {
     return {&world->session(), world->robot()};
 }
 
+void hear_events(session::SimSession& session,
+                 const std::function<void(Time, const std::string& name)>& told) {
+    session.on_heard([told, &session](const debug::Event& event) {
+        const auto* const sent = std::get_if<debug::UserEvent>(&event.what);
+        if (sent != nullptr) told(session.now(), sent->name);
+    });
+}
+
 void Readings::line(const plan::TraceEvent& event) {
     now_ = event.at;
     variables_.see(event);
@@ -144,7 +152,7 @@ Result<int16_t> Readings::word(const Condition::Name& name) const {
 Result<int16_t> Readings::word_of(const Condition::Name& name, const session::SimSession& on,
                                   const session::NodeState& node) {
     std::vector<std::string> known;
-    const std::span<const int16_t> memory = on.world().variables_of(node.id);
+    const std::span<const int16_t> memory = on.world().variables(node.robot, node.id);
     const auto take = [&](const std::string& its, size_t address,
                           size_t size) -> std::optional<Result<int16_t>> {
         known.push_back(its);

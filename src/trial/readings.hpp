@@ -9,6 +9,7 @@
 //     if (readings.are_asked_now()) ask(readings.values(condition));
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,10 @@ struct ReadWorld {
     const session::WorldBuses* buses = nullptr;  // of the other robots, if these have their own
 };
 ReadWorld read_world_of(session::PlanWorld* world);
+
+// `told` of each user event that this bus hears from here on, where no plan raises any.
+void hear_events(session::SimSession& session,
+                 const std::function<void(Time, const std::string& name)>& told);
 
 class Readings {
 public:

@@ -168,10 +168,7 @@ private:
 
     void bind_listeners() {
         session::SimSession& session = session_of_robot();
-        session.on_heard([this, &session](const debug::Event& event) {
-            const auto* const sent = std::get_if<debug::UserEvent>(&event.what);
-            if (sent != nullptr) judge_->event(session.now(), sent->name);
-        });
+        hear_events(session, [this](Time at, const auto& name) { judge_->event(at, name); });
         session.on_instant([this] { judge_->instant(); });
         if (!options_.scripts) return;
         scripts_.emplace(buses());

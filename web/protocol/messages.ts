@@ -1935,7 +1935,7 @@ export interface Commands {
     /** why not */
     why?: string;
   } };
-  /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, that nothing touched the robot, and how it ended. The test is run once first, with the files as they are saved. */
+  /** Writes a test of the simulated run that goes or went last, beside its plan: the order of its actors, by when the last of them had come, that nothing touched the robot, and how it ended. Of a run without a plan it is beside the world: which events came first, and where the robot was at the end. The test is run once first, with the files as they are saved. */
   'test.keep': { in: Record<never, never>; out: {
     path: Path;
     /** from the beginning, with these files, the run was another one: a run that was changed on its way is; the test expects what that one did */

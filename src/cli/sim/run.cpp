@@ -186,6 +186,7 @@ Status SimRun::begin_recording(const FilesRead& files) {
     about.world = options_.world;
     about.loads = options_.loads;
     if (options_.seed) about.seed = std::to_string(*options_.seed);
+    about.poses = options_.poses;
     const auto pace = pace_.hurries() ? record::Pace::Waits : record::Pace::NeverWaits;
     recording_ = TRY(record::SimRecording::begin(options_.record, about, files, robots_, pace));
     if (options_.record_camera) recording_->follow_cameras();
@@ -453,6 +454,9 @@ Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& optio
     session::SimOptions made{{}, options.compile, !options.trace.empty()};
     made.world.seed = options.seed;
     made.world.threads = options.threads;
+    for (const std::string& pose : options.poses) {
+        made.world.starts.push_back(TRY(embed::parse_pose(pose)));
+    }
     made.world.sd_folder = options.sd_folder;
     if (!options.chaos.empty()) made.world.chaos = TRY(embed::read_chaos_words(options.chaos));
     if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));

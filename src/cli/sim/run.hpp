@@ -25,6 +25,7 @@ struct SimRunOptions {
     double speed = 1;                // 0: as fast as it goes
     std::optional<double> duration;  // simulated seconds
     std::optional<uint64_t> seed;
+    std::vector<std::string> poses;   // where robots begin, as of `plan run`
     std::optional<unsigned> threads;  // empty: by the number of robots
     std::string listen;
     std::string trace;

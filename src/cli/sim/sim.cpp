@@ -40,6 +40,10 @@ void add_time_options(CLI::App& verb, SimRunOptions& options) {
         *verb.add_option("--duration", options.duration, "ends after so many simulated seconds"),
         Seconds::Passing);
     add_seed_option(verb, options.seed, "of everything random (default: that of the world file)");
+    verb.add_option("--pose", options.poses,
+                    "a robot begins there, in m and degrees; for more robots again")
+        ->allow_extra_args(false)
+        ->type_name("ROBOT=X,Y,DEG");
 }
 
 void add_threads_option(CLI::App& verb, SimRunOptions& options) {

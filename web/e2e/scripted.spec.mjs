@@ -1,10 +1,10 @@
 // Tests of behaviour without a plan, as a pupil with a Thymio comes to them: a run of a script is
 // kept as a test, the script is changed, the robot bumps, and the test says so.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { makeProject } from './support/robots.mjs';
-import { gone, reads, seen, test, until } from './support/studio.mjs';
+import { focused, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const json = (/** @type {unknown} */ value) => JSON.stringify(value, null, 2);
@@ -39,13 +39,6 @@ const said = (/** @type {Page} */ page) => page.locator('.tests__said');
 const clock = async (/** @type {Page} */ page) =>
   parseFloat(await page.locator('.clock__time').innerText());
 
-async function openFile(/** @type {Page} */ page, /** @type {string} */ name) {
-  const row = page.getByRole('treeitem', { name: new RegExp(`^${name.replaceAll('.', '\\.')}`) });
-  await row.focus();
-  await row.press('Enter');
-  await seen(page.getByRole('textbox', { name: new RegExp(name.replaceAll('.', '\\.')) }));
-}
-
 test(
   'a run of a script becomes a test, which fails when the robot bumps',
   thymio,
@@ -55,10 +48,14 @@ test(
     await press('F5');
     await until('it has driven for a while', async () => (await clock(page)) > 2);
     await press('Shift+F5');
-    await page.getByRole('tab', { name: 'Timeline' }).click();
+    await command('Show Timeline');
     await page.getByRole('button', { name: 'Keep the run as a test' }).click();
-    await seen(page.getByRole('textbox', { name: /room\.test\.json/ }));
-    const kept = JSON.parse(readFileSync(join(server.folder, 'room.test.json'), 'utf8'));
+    await focused(page.getByRole('textbox', { name: /room\.test\.json/ }));
+    const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+      one.endsWith('room.test.json'),
+    );
+    assert.ok(path !== undefined);
+    const kept = JSON.parse(readFileSync(join(server.folder, path), 'utf8'));
     assert.equal(kept.plan, undefined);
     assert.equal(kept.world, 'room.world.json');
     assert.deepEqual(kept.expect[0], { always: 'contact == 0', help: 'touches nothing' });
@@ -66,9 +63,11 @@ test(
     assert.match(kept.expect[2].eventually, /^t > [\d.]+ and abs\(x - 0\.7\d?\) < 0\.1 and abs\(y/);
     assert.deepEqual(kept.expect.at(-1), { ends: 'MaxTime' });
     await press('F5');
-    await reads(said(page), '1 run as expected.');
+    await reads(said(page), /^1 run as expected\./);
 
-    await openFile(page, 'ahead.aesl');
+    await page.getByRole('treeitem', { name: /^ahead\.aesl/ }).focus();
+    await press('Enter');
+    await seen(page.locator('.cm-line').filter({ hasText: 'motor.left.target' }));
     for (const side of ['left', 'right']) {
       await page
         .locator('.cm-line')
@@ -94,24 +93,26 @@ test(
     assert.ok(Math.abs(shown - at) < 0.02, `${shown} s is shown, it failed at ${at} s`);
     await press('Escape');
     await gone(bar);
+    await page.getByRole('button', { name: 'Run by hand' }).first().click();
+    await until('it runs from its beginning', async () => {
+      const t = await clock(page);
+      return t > 0.2 && t < 4;
+    });
+    await press('Shift+F5');
   },
 );
 
-test(
-  'a script that runs no longer is kept as it was run, by what the files do now',
-  thymio,
-  async (studio) => {
-    const { page, press, command } = studio;
-    await page.getByRole('tab', { name: 'Timeline' }).click();
-    // Nothing has run: there is nothing to keep, and the button says so.
-    const keep = page.getByRole('button', { name: /^Keep the run as a test/ });
-    assert.equal(await keep.isDisabled(), true);
-    await press('F5');
-    await until('it has driven for a while', async () => (await clock(page)) > 1);
-    await press('Shift+F5');
-    await command('Keep the run as a test');
-    await seen(page.getByRole('textbox', { name: /room\.test\.json/ }));
-    await press('F5');
-    await reads(said(page), '1 run as expected.');
-  },
-);
+test('the run of a script is kept by a command, once one has begun', thymio, async (studio) => {
+  const { page, press, command } = studio;
+  await command('Show Timeline');
+  // Nothing has run: there is nothing to keep, and the button says so.
+  const keep = page.getByRole('button', { name: /^Keep the run as a test/ });
+  assert.equal(await keep.isDisabled(), true);
+  await press('F5');
+  await until('it has driven for a while', async () => (await clock(page)) > 1);
+  await press('Shift+F5');
+  await command('Keep the run as a test');
+  await focused(page.getByRole('textbox', { name: /room\.test\.json/ }));
+  await press('F5');
+  await reads(said(page), /^1 run as expected\./);
+});

@@ -185,4 +185,12 @@ Result<std::optional<Duration>> parse_max_time(const std::string& text) {
     return usage(fmt::format("--max-time {}: expected seconds above 0, as --max-time 2.5", text));
 }
 
+Result<sim::WorldOptions> world_options(const WorldWords& words) {
+    sim::WorldOptions options;
+    if (!words.seed.empty()) options.seed = TRY(parse_seed(words.seed));
+    for (const std::string& pose : words.poses) options.starts.push_back(TRY(parse_pose(pose)));
+    if (!words.chaos.empty()) options.chaos = TRY(read_chaos_words(words.chaos));
+    return options;
+}
+
 }  // namespace vagus::embed

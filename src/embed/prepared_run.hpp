@@ -148,6 +148,14 @@ Result<unsigned> parse_threads(const std::string& text);
 // random:N[:SEED[:SECONDS[:KIND,KIND]]].
 Result<sim::Chaos> read_chaos_words(const std::string& text);
 
+// A world with these options, as words; what is empty is as its file says.
+struct WorldWords {
+    std::string seed = {};
+    std::vector<std::string> poses = {};
+    std::string chaos = {};
+};
+Result<sim::WorldOptions> world_options(const WorldWords& words);
+
 // The seconds of `--max-time`; empty: it never comes.
 Result<std::optional<Duration>> parse_max_time(const std::string& text);
 

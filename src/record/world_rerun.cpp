@@ -20,7 +20,8 @@ public:
 
     Status prepare() override {
         const std::string world = folder_.path_of(about_.world);
-        const session::SimOptions options = TRY(options_of_run());
+        session::SimOptions options;
+        options.world = TRY(embed::world_options({about_.seed, about_.poses, about_.chaos}));
         if (is_of_studio()) {
             own_ = std::make_unique<session::SimSession>(TRY(session::open_sim(world, options)));
         } else {
@@ -66,18 +67,6 @@ public:
     }
 
 private:
-    Result<session::SimOptions> options_of_run() const {
-        session::SimOptions options;
-        if (!about_.seed.empty()) options.world.seed = TRY(embed::parse_seed(about_.seed));
-        for (const std::string& pose : about_.poses) {
-            options.world.starts.push_back(TRY(embed::parse_pose(pose)));
-        }
-        if (!about_.chaos.empty()) {
-            options.world.chaos = TRY(embed::read_chaos_words(about_.chaos));
-        }
-        return options;
-    }
-
     Result<Ended> run_to_its_end(Tape& tape) {
         Recorder recorder(tape, format_run(about_));
         recorder_ = &recorder;

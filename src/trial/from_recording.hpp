@@ -27,8 +27,8 @@ struct Draft {
     std::vector<std::string> hints = {};  // what a test cannot do again
 };
 
-// The test is to lie beside its plan, or its world. A run that had not ended, or that a person ended, is one
-// whose time was over then. The Error says why there can be no test of it.
+// The test is to lie beside its plan, or its world. A run that had not ended, or that a person
+// ended, is one whose time was over then. The Error says why there can be no test of it.
 Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options = {});
 
 }  // namespace vagus::trial

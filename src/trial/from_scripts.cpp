@@ -35,7 +35,7 @@ struct ScriptsTold {
     double end = 0;                    // s: in whole tenths, at which there is a pose
     std::vector<std::string> robots;   // by name
     std::vector<std::string> scripts;  // that the world does not name, by name
-    std::vector<EventCame> came;            // for the first time
+    std::vector<EventCame> came;       // for the first time
     std::optional<sim::Point> place;   // of the first robot, at the end
 };
 
@@ -139,9 +139,8 @@ std::vector<std::string> expectations(const ScriptsTold& told, const DraftOption
                                     json_quote("event == '" + one.event + "'")));
     }
     if (told.place) {
-        const std::string place =
-            fmt::format("t > {} and {} and {}", number(told.end - 0.1), near("x", told.place->x),
-                        near("y", told.place->y));
+        const std::string place = fmt::format("t > {} and {} and {}", number(told.end - 0.1),
+                                              near("x", told.place->x), near("y", told.place->y));
         lines.push_back(fmt::format(
             "{{ \"eventually\": {}, \"help\": \"where it is at the end\" }}", json_quote(place)));
     }

@@ -7,6 +7,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/file.hpp"
+#include "base/nearest.hpp"
 #include "base/seconds.hpp"
 #include "base/text.hpp"
 #include "embed/prepared_run.hpp"
@@ -45,8 +46,8 @@ Result<sim::RobotId> choose_robot(const TestFile& test, const sim::World& world)
     if (!test.robot.empty()) {
         const auto found = world.find_robot(test.robot);
         if (found) return *found;
-        return Error{Code::NotFound, test.path + ": " +
-                                         sim::no_robot(definition, test.robot, " in " + test.world)};
+        return Error{Code::NotFound,
+                     test.path + ": " + sim::no_robot(definition, test.robot, " in " + test.world)};
     }
     if (definition.robots.size() == 1) return sim::RobotId{1};
     if (definition.robots.empty()) {
@@ -54,12 +55,13 @@ Result<sim::RobotId> choose_robot(const TestFile& test, const sim::World& world)
                      fmt::format("{}: the world {} has no robot, and conditions are about one",
                                  test.path, test.world)};
     }
-    std::vector<std::string_view> names;
-    for (const sim::RobotDefinition& robot : definition.robots) names.emplace_back(robot.name);
-    return Error{Code::Refused,
-                 fmt::format("{}: conditions are about one robot, and {} has {}: {}; choose one, as "
-                             "\"robot\": \"{}\"",
-                             test.path, test.world, names.size(), list_of(names), names.front())};
+    std::vector<std::string> names;
+    for (const sim::RobotDefinition& robot : definition.robots) names.push_back(robot.name);
+    return Error{
+        Code::Refused,
+        fmt::format("{}: conditions are about one robot, and {} has {}; choose one, as "
+                    "\"robot\": \"{}\"; {}",
+                    test.path, test.world, names.size(), names.front(), known_instead("", names))};
 }
 
 // The Error says which scripts do not run, and why.
@@ -110,17 +112,13 @@ public:
 
 private:
     session::WorldBuses& buses() const { return robots_->buses(); }
+    std::string seed() const { return std::to_string(outcome_.seed); }
 
     Status open() {
-        embed::RobotsOptions options{.world = test_.world};
-        sim::WorldOptions& world = options.sim.world;
-        world.seed = outcome_.seed;
-        world.chaos = test_.chaos;
-        if (!options_.chaos.empty()) world.chaos = TRY(embed::read_chaos_words(options_.chaos));
         if (test_.starts) outcome_.poses.push_back(TRY(draw_start(test_, outcome_.seed)));
-        for (const std::string& pose : outcome_.poses) {
-            world.starts.push_back(TRY(embed::parse_pose(pose)));
-        }
+        embed::RobotsOptions options{.world = test_.world};
+        options.sim.world = TRY(embed::world_options({seed(), outcome_.poses, options_.chaos}));
+        if (options_.chaos.empty()) options.sim.world.chaos = test_.chaos;
         robots_ = TRY(embed::RobotsRun::open(options));
         for (const std::string& path : test_.scripts) {
             buses().common().load(path, TRY(read_file(path)));
@@ -130,8 +128,16 @@ private:
         return Status::done();
     }
 
+    // From their first lines on.
+    void count_scripts() {
+        if (!options_.scripts) return;
+        scripts_.emplace(buses());
+        buses().world().watch(&*scripts_);
+    }
+
     // At time 0 the scripts run, and what conditions name is known.
     Status load() {
+        count_scripts();
         (void)buses().settle();
         TRY(check_scripts(test_.world, buses()));
         session::SimSession& session = session_of_robot();
@@ -152,7 +158,7 @@ private:
         about.verb = record::kTestVerb;
         about.world = test_.world;
         about.loads = test_.scripts;
-        about.seed = std::to_string(outcome_.seed);
+        about.seed = seed();
         about.poses = outcome_.poses;
         recording_ = TRY(record::SimRecording::begin(options_.record, about, *files_, *robots_,
                                                      record::Pace::Waits));
@@ -170,9 +176,6 @@ private:
         session::SimSession& session = session_of_robot();
         hear_events(session, [this](Time at, const auto& name) { judge_->event(at, name); });
         session.on_instant([this] { judge_->instant(); });
-        if (!options_.scripts) return;
-        scripts_.emplace(buses());
-        buses().world().watch(&*scripts_);
     }
 
     const TestFile& test_;

@@ -17,11 +17,11 @@ timer.period[0] = 1000
 motor.left.target = 200
 motor.right.target = 200
 onevent timer0
-	ticks = ticks + 1
-	if ticks == 3 then
-		emit third
-	end
-	emit tick
+    ticks = ticks + 1
+    if ticks == 3 then
+        emit third
+    end
+    emit tick
 )";
 constexpr std::string_view kRobot = R"({"name":"a","type":"thymio2","at":[0.1,0.5],)"
                                     R"("script":"ahead.aesl"})";
@@ -57,7 +57,9 @@ protected:
         at_ = outcome.value().verdicts.at(0).at;
         return outcome.value().verdicts.at(0).what;
     }
-    std::string in_file(const std::string& rest) { return (folder_ / "t.test.json").string() + rest; }
+    std::string in_file(const std::string& rest) {
+        return (folder_ / "t.test.json").string() + rest;
+    }
 
     test::Folder folder_;
     Time at_{};
@@ -94,9 +96,10 @@ TEST_F(ScriptTrials, EventIsTheOneOnTheBusAtTheInstantItIsSent) {
 
 TEST_F(ScriptTrials, OfSeveralRobotsOneIsNamed) {
     world(std::string(kRobot) + std::string(kSecond));
-    EXPECT_EQ(wrong(R"({"always":"x < 1"})"),
-              in_file(": conditions are about one robot, and " + (folder_ / "w.world.json").string() +
-                      " has 2: a and b; choose one, as \"robot\": \"a\""));
+    EXPECT_EQ(
+        wrong(R"({"always":"x < 1"})"),
+        in_file(": conditions are about one robot, and " + (folder_ / "w.world.json").string() +
+                " has 2; choose one, as \"robot\": \"a\"; there are: a, b"));
     EXPECT_EQ(wrong(R"({"eventually":"x > 1.2 and abs(y - 0.8) < 0.1"})", R"("robot":"b",)"), "");
     EXPECT_EQ(wrong(R"({"eventually":"node('b/thymio-II', 'ticks') == 5"})", R"("robot":"a",)"),
               "");
@@ -108,7 +111,8 @@ TEST_F(ScriptTrials, WhatDoesNotRunIsRefused) {
     EXPECT_NE(wrong(R"({"always":"node('thymio-II', 'tiks') < 9"})").find("did you mean ticks?"),
               std::string::npos);
     folder_.write("ahead.aesl", "x = \n");
-    EXPECT_TRUE(wrong(R"({"ends":"MaxTime"})").starts_with((folder_ / "ahead.aesl").string() + ":1:"));
+    EXPECT_TRUE(
+        wrong(R"({"ends":"MaxTime"})").starts_with((folder_ / "ahead.aesl").string() + ":1:"));
 }
 
 TEST_F(ScriptTrials, ScriptsAreLoadedBesideThoseOfTheWorld) {
@@ -134,6 +138,7 @@ TEST_F(ScriptTrials, LinesOfScriptsAreCounted) {
     const auto& lines = coverage.scripts.at((folder_ / "ahead.aesl").string()).lines;
     EXPECT_EQ(lines.at(6), 5u);  // ticks = ticks + 1, each second before the end
     EXPECT_EQ(lines.at(8), 1u);  // emit third
+    EXPECT_EQ(lines.at(3), 1u);  // as it is loaded
 }
 
 TEST_F(ScriptTrials, TheRecordingIsTheRun) {

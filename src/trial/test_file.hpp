@@ -1,5 +1,5 @@
-// A test of behaviour, NAME.test.json: a plan, perhaps in a world, or a world whose robots run their
-// scripts, with what is expected of each of its runs (docs/formats.md, "Test file").
+// A test of behaviour, NAME.test.json: a plan, perhaps in a world, or a world whose robots run
+// their scripts, with what is expected of each of its runs (docs/formats.md, "Test file").
 //
 //     const TestFile test = TRY(read_test(text, "examples/follow-wall/Wall.test.json"));
 //     for (uint64_t seed = test.seeds.first; seed <= test.seeds.last; ++seed) run(test, seed);

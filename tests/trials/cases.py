@@ -30,6 +30,15 @@ WORLD = {
     "robots": [{"name": "carbot", "type": "carbot", "at": [2, 1], "angle": 0,
                 "script": str(EXAMPLES / "carbot/carbot.aesl")}],
 }
+# It ticks once a second, and drives.
+AHEAD = """var ticks = 0
+timer.period[0] = 1000
+motor.left.target = 200
+motor.right.target = 200
+onevent timer0
+ticks = ticks + 1
+emit tick
+"""
 
 
 class Trials(unittest.TestCase):
@@ -253,6 +262,49 @@ class Trials(unittest.TestCase):
         lines = run_vagus("test", "--signals").splitlines()
         for name in ("actor", "event", "t", "x", "y", "angle", "contact", "bus"):
             self.assertTrue(any(line.split()[0] == name for line in lines), name)
+
+    def test_a_world_without_a_plan(self):
+        (self.folder / "ahead.aesl").write_text(AHEAD)
+        (self.folder / "w.world.json").write_text(json.dumps(dict(WORLD, robots=[
+            {"name": "thymio", "type": "thymio2", "at": [0.2, 1], "angle": 0, "script": "ahead.aesl"}])))
+        path = self.folder / "t.test.json"
+        test = {"format": "vagus-test/1", "world": "w.world.json", "seeds": [1, 3], "max_time": 6}
+        # A Thymio at 200 of 500 drives 200 / 500 * 16.6 = 6.64 cm/s.
+        path.write_text(json.dumps(dict(test, expect=[
+            {"within": 2.2, "eventually": "event == 'tick' and node('thymio-II', 'ticks') == 2"},
+            {"eventually": "t > 5.9 and abs(x - 0.59) < 0.06"}, {"always": "contact == 0"}, {"ends": "MaxTime"}])))
+        output = self.run_test("--coverage", self.folder / "lines", "--junit", self.folder / "j.xml")
+        self.assertIn(f"{self.folder}/ahead.aesl\n  lines        6 of 6\n", output)
+        self.assertIn("3 of 3 runs as expected", output)
+        self.assertEqual([file.name for file in sorted((self.folder / "lines").iterdir())], ["coverage.txt", "scripts.info"])
+        self.assertEqual(len(list(xml.etree.ElementTree.parse(self.folder / "j.xml").iter("testcase"))), 3)
+        # What it does not survive is shrunk, and written as a test that has no plan either.
+        self.assertRegex(self.run_test("--chaos", "4:hung", status=1), r"  1 fault of \d left")
+        (broken,) = (self.folder / "results").glob("t.chaos-*.test.json")
+        made = json.loads(broken.read_text())
+        self.assertEqual((made.get("plan"), made["world"], made["chaos"][0]["kind"]), (None, "../w.world.json", "hung"))
+        self.assertIn("no difference", run_vagus("replay", next((self.folder / "results").glob("t.chaos-*.mcap"))))
+        # An expectation of a plan has its place.
+        path.write_text(json.dumps(dict(test, expect=[{"order": ["a"]}])))
+        self.assertRegex(self.run_test(status=2), r"t\.test\.json:1:\d+: \"order\" of expectation 1 names actors of a plan")
+
+    def test_a_test_is_made_of_a_recording_of_scripts(self):
+        (self.folder / "ahead.aesl").write_text(AHEAD)
+        (self.folder / "w.world.json").write_text(json.dumps(dict(WORLD, robots=[
+            {"name": "thymio", "type": "thymio2", "at": [0.2, 1], "angle": 0}])))
+        record = self.folder / "run.mcap"
+        run_vagus("sim", self.folder / "w.world.json", "--load", self.folder / "ahead.aesl", "--headless", "--speed", "max",
+                  "--duration", "4.05", "--seed", "7", "--record", record)
+        made = self.folder / "made.test.json"
+        run_vagus("test", "new", record, made)
+        test = json.loads(made.read_text())
+        self.assertEqual((test["world"], test["scripts"], test["seeds"], test["max_time"]),
+                         ("w.world.json", ["ahead.aesl"], [7, 7], 4))
+        self.assertEqual(test["expect"][0], {"always": "contact == 0", "help": "touches nothing"})
+        self.assertEqual(test["expect"][1], {"within": 1.3, "eventually": "event == 'tick'"})
+        self.assertRegex(test["expect"][2]["eventually"], r"^t > 3\.9 and abs\(x - 0\.4\d?\) < 0\.1 and abs\(y - ")
+        self.assertEqual(test["expect"][3], {"ends": "MaxTime"})
+        self.assertIn("1 of 1 runs as expected", self.run_test(file=made))
 
 
 if __name__ == "__main__":

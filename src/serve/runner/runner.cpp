@@ -200,13 +200,7 @@ private:
     // What a test says of its run, the run that shows it has, too.
     static Result<session::SimSession> open_world(const talk::Open& order) {
         session::SimOptions options;
-        if (!order.seed.empty()) options.world.seed = TRY(embed::parse_seed(order.seed));
-        for (const std::string& start : order.starts) {
-            options.world.starts.push_back(TRY(embed::parse_pose(start)));
-        }
-        if (!order.chaos.empty()) {
-            options.world.chaos = TRY(embed::read_chaos_words(order.chaos));
-        }
+        options.world = TRY(embed::world_options({order.seed, order.starts, order.chaos}));
         session::SimSession session =
             TRY(order.world_text ? session::open_sim_text(order.world, *order.world_text, options)
                                  : session::open_sim(order.world, options));

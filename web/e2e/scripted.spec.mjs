@@ -26,16 +26,30 @@ const room = {
   size: [1, 1],
   robots: [{ name: 'thymio', type: 'thymio2', at: [0.7, 0.5], angle: 0, script: 'ahead.aesl' }],
 };
-const thymio = {
+const project = (/** @type {unknown} */ world) => ({
   prepare: (/** @type {TestContext} */ t) =>
     makeProject(
       t,
       { name: 'Thymio', world: 'room.world.json', target: 'sim', scripts: ['ahead.aesl'] },
-      { 'room.world.json': json(room), 'ahead.aesl': slow },
+      { 'room.world.json': json(world), 'ahead.aesl': slow },
     ),
-};
+});
+const thymio = project(room);
+/** The script is named by the project alone, and Run loads it. */
+const bare = project({
+  ...room,
+  robots: room.robots.map((one) => ({ ...one, script: undefined })),
+});
 
 const said = (/** @type {Page} */ page) => page.locator('.tests__said');
+/** What was written as room.test.json. */
+function keptTest(/** @type {string} */ folder) {
+  const path = readdirSync(folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+    one.endsWith('room.test.json'),
+  );
+  assert.ok(path !== undefined);
+  return JSON.parse(readFileSync(join(folder, path), 'utf8'));
+}
 const clock = async (/** @type {Page} */ page) =>
   parseFloat(await page.locator('.clock__time').innerText());
 
@@ -51,11 +65,7 @@ test(
     await command('Show Timeline');
     await page.getByRole('button', { name: 'Keep the run as a test' }).click();
     await focused(page.getByRole('textbox', { name: /room\.test\.json/ }));
-    const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
-      one.endsWith('room.test.json'),
-    );
-    assert.ok(path !== undefined);
-    const kept = JSON.parse(readFileSync(join(server.folder, path), 'utf8'));
+    const kept = keptTest(server.folder);
     assert.equal(kept.plan, undefined);
     assert.equal(kept.world, 'room.world.json');
     assert.deepEqual(kept.expect[0], { always: 'contact == 0', help: 'touches nothing' });
@@ -102,8 +112,8 @@ test(
   },
 );
 
-test('the run of a script is kept by a command, once one has begun', thymio, async (studio) => {
-  const { page, press, command } = studio;
+test('the run of a script is kept by a command, once one has begun', bare, async (studio) => {
+  const { page, press, command, server } = studio;
   await command('Show Timeline');
   // Nothing has run: there is nothing to keep, and the button says so.
   const keep = page.getByRole('button', { name: /^Keep the run as a test/ });
@@ -113,6 +123,7 @@ test('the run of a script is kept by a command, once one has begun', thymio, asy
   await press('Shift+F5');
   await command('Keep the run as a test');
   await focused(page.getByRole('textbox', { name: /room\.test\.json/ }));
+  assert.deepEqual(keptTest(server.folder).scripts, ['ahead.aesl']);
   await press('F5');
   await reads(said(page), /^1 run as expected\./);
 });

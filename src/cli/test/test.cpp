@@ -430,15 +430,20 @@ void add_new(CLI::App& test, int& exit_code) {
     };
     CLI::App* verb = test.add_subcommand("new", "writes a test from the recording of a run");
     auto options = std::make_shared<Options>();  // owners: CLI11's options and the callback
-    takes_file(*verb->add_option("RECORDING", options->recording, "of a plan's run")->required(),
+    takes_file(*verb->add_option("RECORDING", options->recording,
+                                 "of a run of a plan, or of scripts in a world")
+                    ->required(),
                {".mcap"});
-    takes_file(*verb->add_option("FILE", options->to,
-                                 "the test, beside its plan (beside the recording, with its name)"),
+    takes_file(*verb->add_option(
+                   "FILE", options->to,
+                   "the test, beside its plan or world (beside the recording, named as that)"),
                {std::string(trial::kTestEnding)});
     verb->footer(
         "The order in which actors first came, by when the last of them had, and how the run "
-        "ended, with a quarter of room: trim it.\n\nExample:\n"
-        "  vagus test new run.mcap follow-wall/Wall.test.json");
+        "ended, with a quarter of room: trim it. Without a plan it is that nothing touched the "
+        "robot, the first events, and where it was at the end.\n\nExample:\n"
+        "  vagus test new run.mcap follow-wall/Wall.test.json\n"
+        "  vagus test new seen.mcap thymio/Seen.test.json");
     verb->callback([options, &exit_code] {
         const std::string& to = options->to;
         exit_code = draft(options->recording, to.empty() ? test_beside(options->recording) : to);

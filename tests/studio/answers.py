@@ -84,14 +84,15 @@ class Answers(Case):
         page.do("run.start")
         self.expect_answers([page.ask("test.keep"), page.ask("project.close")])
 
-    def test_a_run_without_a_plan_that_cannot_be_kept_is_named_as_pages_name_it(self):
+    def test_a_run_that_cannot_be_kept_is_named_as_pages_name_it(self):
         page = self.open_simulated()
         page.do("target.choose", target="sim")
         self.wait_node(described=True)
         page.do("run.step")
         self.wait(lambda: self.clock.value["t"] > 0 and [*self.folder.rglob("run-*.mcap")], "the recording of a run that has begun")
         told = self.refused("failed", "test.keep")
-        self.assertRegex(told, r"^run-\d+\.mcap: is the recording of a world without a plan; a test is of a plan")
+        # One step is too short a run of scripts to say anything of it.
+        self.assertRegex(told, r"^run-\d+\.mcap: the run took 0 s, in which nothing is seen; let it run for longer")
 
     def test_while_the_run_hangs_and_is_ended(self):
         page = self.open_simulated()

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/json.hpp"
 #include "base/text.hpp"
 #include "plan/value.hpp"
 #include "record/damage.hpp"
+#include "record/inputs.hpp"
 #include "record/run_file.hpp"
 #include "record/topics.hpp"
 #include "trial/draft_text.hpp"
@@ -55,6 +57,28 @@ struct Recorded {
     Told told;
     std::string seed;  // of the run, or of its world
     size_t inputs = 0;
+    std::map<std::string, std::string> set;  // by a person, in the outermost plan; its last values
+
+    void input(const Result<record::Input>& input) {
+        ++inputs;
+        if (!input.ok()) return;  // of another version of Vagus; it counts all the same
+        const auto* const request = std::get_if<run::Request>(&input.value().what);
+        const auto* const order =
+            request == nullptr ? nullptr : std::get_if<run::SetVariable>(request);
+        if (order == nullptr || order->level != 0) return;
+        const auto value = plan::text_of(order->value);
+        if (value.ok()) set[order->name] = value.value();
+    }
+    // What its variables began with, and NAME=VALUE of a person in place of that.
+    std::vector<std::string> words(bool by_hand) const {
+        std::vector<std::string> words = run.set;
+        if (!by_hand) return words;
+        std::erase_if(words, [this](const std::string& word) {
+            return set.contains(word.substr(0, word.find('=')));
+        });
+        for (const auto& [name, value] : set) words.push_back(name + "=" + value);
+        return words;
+    }
 };
 
 Result<Recorded> read_recorded(const mcap::Reader& reader) {
@@ -70,7 +94,9 @@ Result<Recorded> read_recorded(const mcap::Reader& reader) {
     mcap::Cursor cursor(reader);
     while (const auto message = cursor.next()) {
         if (message->channel == run_id) run = message->data;
-        if (message->channel == input_id) ++recorded.inputs;
+        if (message->channel == input_id) {
+            recorded.input(record::read_input(message->data, Time{}, reader.name()));
+        }
         if (message->channel != trace_id) continue;
         const auto json = read_json(message->data);
         if (const auto* tree = std::get_if<JsonValue>(&json)) recorded.told.line(*tree);
@@ -121,15 +147,18 @@ std::vector<std::string> expectations(const Told& told, bool timed_out, bool unt
 
 // The keys of the test, a line each.
 std::vector<std::string> members_of(const Recorded& recorded, const Draft& draft, bool timed_out,
-                                    bool untouched, const std::string& name) {
+                                    const DraftOptions& options, const std::string& name) {
     const record::RunFile& run = recorded.run;
+    const bool untouched = options.untouched && !draft.world.empty();
     std::vector<std::string> members = first_members(name);
     members.push_back("\"plan\": " + json_quote(draft.plan));
     if (!draft.world.empty()) members.push_back("\"world\": " + json_quote(draft.world));
     if (!run.robot.empty()) members.push_back("\"robot\": " + json_quote(run.robot));
     std::string set;
     add_files(members, "toolboxes", run.plan, run.toolboxes);
-    for (const std::string& one : run.set) set += (set.empty() ? "" : ", ") + set_member(one);
+    for (const std::string& one : recorded.words(options.set)) {
+        set += (set.empty() ? "" : ", ") + set_member(one);
+    }
     if (!set.empty()) members.push_back("\"set\": { " + set + " }");
     members.push_back(seeds_member(recorded.seed));
     const double end = recorded.told.end;
@@ -162,9 +191,9 @@ Result<Draft> draft_test(const mcap::Reader& reader, const DraftOptions& options
                                         "ended; let it run for longer"};
     }
     Draft draft{.plan = last_part(recorded.run.plan),
-                .world = beside(recorded.run.plan, recorded.run.world)};
-    const bool untouched = options.untouched && !draft.world.empty();
-    draft.text = test_text(members_of(recorded, draft, timed_out, untouched, reader.name()));
+                .world = beside(recorded.run.plan, recorded.run.world),
+                .was_set = !recorded.set.empty()};
+    draft.text = test_text(members_of(recorded, draft, timed_out, options, reader.name()));
     draft.hints = hints_of(recorded.run, recorded.inputs);
     return draft;
 }

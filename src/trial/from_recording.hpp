@@ -19,11 +19,14 @@ constexpr double kRoom = 1.25;  // times what it took then
 struct DraftOptions {
     bool untouched = false;  // in a world: it expects, too, that nothing ever touches the robot
     bool events = true;      // without a plan: it expects those that came first
+    bool set = false;        // variables that a person set in that run have those values from its
+                             // start
 };
 
 struct Draft {
     std::string text = {};                // of the test file
     std::string plan = {}, world = {};    // files that it names, as it names them; perhaps empty
+    bool was_set = false;                 // a person set variables of the plan in that run
     std::vector<std::string> hints = {};  // what a test cannot do again
 };
 

@@ -41,6 +41,19 @@ Result<Draft> draft_again(const std::string& file, const std::string& name,
     return draft_test(reader, options);
 }
 
+// With what a person set in the middle of the run as it was from its start. Nothing: even so
+// something touches the robot.
+std::optional<KeptRun> keep_as_set(const mcap::Reader& reader, const KeptPlace& place) {
+    auto set = draft_test(reader, {.untouched = true, .set = true});
+    if (!set.ok()) return std::nullopt;
+    const auto came = tried(set.value(), place);
+    if (!came || !came->untouched) return std::nullopt;
+    if (came->as_drafted) return KeptRun{std::move(set.value())};
+    auto again = draft_again(place.scratch, reader.name(), {.untouched = true});
+    if (!again.ok()) return std::nullopt;
+    return KeptRun{std::move(again.value()), true};
+}
+
 }  // namespace
 
 Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place) {
@@ -52,6 +65,10 @@ Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place) {
         if (came) came->as_drafted = false;
     }
     if (came && came->as_drafted && came->untouched) return KeptRun{std::move(untouched)};
+    if (untouched.was_set) {
+        if (auto kept = keep_as_set(reader, place)) return std::move(*kept);
+        came = tried(untouched, place);  // the scratch file is of another run by now
+    }
     if (came && !came->as_drafted) {
         // An Error: it came to no actor, so there is nothing to expect of it.
         auto again = draft_again(place.scratch, reader.name(), {.untouched = came->untouched});

@@ -25,7 +25,8 @@ struct KeptRun {
     bool differs = false;  // from the beginning the run was another one than the recorded one
 };
 
-// Where nothing touched the robot the test expects that, too. A run that is not possible now is
+// Where nothing touched the robot the test expects that, too; also where that needs what a person
+// set in the run to be so from its start. A run that is not possible now is
 // drafted from its recording alone. The Error says why there can be no test of it.
 Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place);
 

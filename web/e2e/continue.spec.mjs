@@ -334,6 +334,8 @@ test('a variable of then is set for the run from there', wall, async (studio) =>
   await notice.getByRole('button', { name: 'Keep 30' }).click();
   await gone(notice);
   await set();
+  // searchFirstWall drives as far as it gets; its supervisor reads the variable each time anew.
+  assert.doesNotMatch(await notice.innerText(), /read walldist/);
   await look(studio, 'variable-then');
   await notice.getByRole('button', { name: 'Run from here' }).click();
   await gone(bar(page));
@@ -380,6 +382,8 @@ test('a change of the active actor counts from where it started', wall, async (s
   await intoSearch('120');
   await layout('Draw');
   await change(/^findWallAngle, actor/, 'spread', '80');
+  await press('Control+s');
+  await seen(page.getByText('Saved', { exact: true }));
   await seen(notice.getByText(/findWallAngle keeps the values with which it started at/));
   await notice.getByRole('button', { name: /^Run from [1-9]/ }).click();
   await gone(bar(page));
@@ -387,3 +391,41 @@ test('a change of the active actor counts from where it started', wall, async (s
   await seen(page.getByText('Paused by the breakpoint parallelToWall'));
   await intoSearch('80');
 });
+
+test(
+  'it bumped: another distance from where the actor read it, and a test of that',
+  wall,
+  async (studio) => {
+    const { page, press, type, button, server } = studio;
+    await runTo(studio, 'backupCollision'); // of 82.7 s: the plank that its sensor does not hear
+    await page.getByRole('switch', { name: 'What it does' }).click();
+    await press('Control+k');
+    await type('Look back 2 s');
+    await press('Enter');
+    await reads(page.locator('.pactive'), /followWall[^]*distance 30/);
+    const live = page.getByRole('complementary', { name: 'What the plan does' });
+    await live.getByLabel('Value of walldist').click();
+    await press('Control+a');
+    await type('80');
+    await press('Enter');
+    const notice = page.getByRole('status').filter({ hasText: 'sets walldist to 80' });
+    await seen(notice.getByText('followWall read walldist when it started at 76.1 s.'));
+    await notice.getByRole('button', { name: 'Run from 76.1 s' }).click();
+    await gone(bar(page));
+    // The escape button of 120 s ends it. It has touched nothing, so the breakpoint was not met.
+    await reads(live, /was interrupted/);
+    assert.ok((await clock(page)) > 120);
+    await page.getByRole('tab', { name: 'Timeline' }).click();
+    await button('Keep the run as a test').click();
+    // At this distance from its start it takes longer, so that is what the test expects.
+    await seen(page.getByText(/expects what your files do from the start/));
+    const path = readdirSync(server.folder, { recursive: true, encoding: 'utf8' }).find((one) =>
+      one.endsWith('WallFollow.test.json'),
+    );
+    assert.ok(path !== undefined);
+    const kept = JSON.parse(readFileSync(join(server.folder, path), 'utf8'));
+    assert.deepEqual(kept.set, { walldist: 80 });
+    assert.deepEqual(kept.expect[2], { always: 'contact == 0', help: 'touches nothing' });
+    assert.deepEqual(kept.expect[3], { ends: 'Interrupted', by: 'escape' });
+  },
+);

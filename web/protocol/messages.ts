@@ -1726,10 +1726,12 @@ export interface Commands {
     /** why the plan that runs could not change so; none: it would take over at once */
     reasons: string[];
   } };
-  /** What differs between another version of a plan and its document as it is now, places included: the one on disk, the one that runs, that of a git revision, or another plan file. */
+  /** What differs between another version of a plan and its document as it is now, places included: the one on disk, the one that runs, the one that ran at an instant, that of a git revision, or another plan file. */
   'plan.differences': { in: {
     doc: Doc;
-    against: 'disk' | 'running' | 'revision' | 'file';
+    against: 'disk' | 'running' | 'then' | 'revision' | 'file';
+    /** for then: an instant of the run */
+    t?: number;
     /** for revision */
     revision?: string;
     /** for file */

@@ -62,10 +62,10 @@ bool History::record(std::string_view bytes) {
     return tape_.record(bytes);
 }
 
-void History::plan(uint64_t version, PlanPast::Plans plans) {
-    if (plan_) return void(plan_->change(version, std::move(plans)));
+void History::plan(uint64_t version, PlanPast::Plans plans, PlanPast::Texts texts) {
+    if (plan_) return void(plan_->change(version, std::move(plans), std::move(texts)));
     if (plans.empty()) return;
-    plan_ = std::make_unique<PlanPast>(std::move(plans), doc_of_, plan_seconds_);
+    plan_ = std::make_unique<PlanPast>(std::move(plans), doc_of_, plan_seconds_, std::move(texts));
 }
 
 bool History::trace(const std::string& line) {

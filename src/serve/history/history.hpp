@@ -53,7 +53,7 @@ public:
     bool trace(const std::string& line);
     // What the next lines of the trace are of: the first version of a plan, or the one that took
     // over. One that was told already changes nothing.
-    void plan(uint64_t version, PlanPast::Plans plans);
+    void plan(uint64_t version, PlanPast::Plans plans, PlanPast::Texts texts = {});
     void picture(KeptPicture picture) { pictures_.add(std::move(picture)); }
     void happen(Happened event) { events_.add(std::move(event)); }
     void words(double t, uint16_t node, uint16_t address, std::span<const int16_t> values);

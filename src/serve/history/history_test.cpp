@@ -443,15 +443,19 @@ TEST(History, NobodyWatchesAPlanThatHasEnded) {
 }
 
 TEST(History, AfterAHotChangeThePastKeepsItsOwnPlan) {
-    PlanPast past(
-        walk(), [](const std::string& file) { return file; }, 1e9);
+    const std::string doc = "Walk.plan.json";
+    PlanPast past(walk(), [](const std::string& file) { return file; }, 1e9, {{doc, "first"}});
     ASSERT_TRUE(past.add(trace()[2]));
     ASSERT_TRUE(past.add(line("1.0", R"("change")")));
     PlanPast::Plans changed = walk();
     changed[0].actors[1].name = "rest";  // it was called stop
-    EXPECT_TRUE(past.change(2, changed));
+    EXPECT_TRUE(past.change(2, changed, {{doc, "second"}}));
     EXPECT_FALSE(past.change(2, walk()));  // it was told already
     ASSERT_TRUE(past.add(line("2.0", R"("actor-start","actor":"rest","activation":2,"in":{})")));
+    EXPECT_EQ(past.text_at(-1, doc), std::nullopt);
+    EXPECT_EQ(past.text_at(0.5, doc), "first");
+    EXPECT_EQ(past.text_at(2.5, doc), "second");
+    EXPECT_EQ(past.text_at(2.5, "Other.plan.json"), std::nullopt);
     EXPECT_EQ(past.at(0.5)["levels"][0]["actor"], "go");
     EXPECT_EQ(past.at(1.5)["levels"][0]["actor"], "go");
     EXPECT_EQ(past.at(2.5)["levels"][0]["actor"], "rest");

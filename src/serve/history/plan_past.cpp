@@ -9,8 +9,9 @@
 
 namespace vagus::serve {
 
-PlanPast::PlanPast(Plans plans, DocOf doc_of, double seconds)
+PlanPast::PlanPast(Plans plans, DocOf doc_of, double seconds, Texts texts)
     : plans_(std::make_shared<const Plans>(std::move(plans))),
+      texts_(std::make_shared<const Texts>(std::move(texts))),
       doc_of_(std::move(doc_of)),
       seconds_(seconds) {}
 
@@ -30,10 +31,11 @@ bool PlanPast::add(const std::string& text) {
     return true;
 }
 
-bool PlanPast::change(uint64_t version, Plans plans) {
+bool PlanPast::change(uint64_t version, Plans plans, Texts texts) {
     if (plans.empty() || version <= version_ || version > kPlanVersions) return false;
     version_ = version;
     plans_ = std::make_shared<const Plans>(std::move(plans));
+    texts_ = std::make_shared<const Texts>(std::move(texts));
     if (!now_) return true;
     now_->change(plans_);
     begin_block(to_);
@@ -41,7 +43,7 @@ bool PlanPast::change(uint64_t version, Plans plans) {
 }
 
 void PlanPast::begin_block(double t) {
-    blocks_.push_back({*now_, plans_, version_, t, t});
+    blocks_.push_back({*now_, plans_, texts_, version_, t, t});
 }
 
 void PlanPast::cut(double t) {
@@ -58,6 +60,7 @@ void PlanPast::cut(double t) {
     drop(last);
     blocks_.pop_back();
     plans_ = last.plans;
+    texts_ = last.texts;
     version_ = last.version;
     now_ = last.before;
     for (std::deque<Lane>* lanes : {&actors_, &supervisors_}) {
@@ -176,16 +179,27 @@ std::vector<Json> PlanPast::lanes(const LaneWindow& window) const {
 
 // ---- an instant ----
 
-Json PlanPast::at(double t) const {
+// Nothing before the first line that is kept.
+const PlanPast::Block* PlanPast::block_at(double t) const {
     const auto after =
         std::upper_bound(blocks_.begin(), blocks_.end(), t,
                          [](double instant, const Block& block) { return instant < block.from; });
-    if (after == blocks_.begin()) {
+    return after == blocks_.begin() ? nullptr : &*std::prev(after);
+}
+
+std::optional<std::string> PlanPast::text_at(double t, const std::string& doc) const {
+    const Block* const block = block_at(t);
+    if (block == nullptr || !block->texts->contains(doc)) return std::nullopt;
+    return block->texts->at(doc);
+}
+
+Json PlanPast::at(double t) const {
+    const Block* const block = block_at(t);
+    if (block == nullptr) {
         return {{"state", "none"}, {"t", t}, {"levels", Json::array()}, {"story", Json::array()}};
     }
-    const Block& block = *std::prev(after);
-    PlanFollower follower = block.before;
-    for (const std::string& text : block.lines) {
+    PlanFollower follower = block->before;
+    for (const std::string& text : block->lines) {
         const auto line = TraceLine::read(text);
         if (!line.ok()) continue;
         if (line.value().t() > t) break;

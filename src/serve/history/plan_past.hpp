@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,17 +33,18 @@ constexpr double kTraceSeconds = 3600;  // of a run; a trace that is opened is k
 class PlanPast {
 public:
     using Plans = PlanOutlines;
+    using Texts = std::map<std::string, std::string>;  // by document; empty: nobody told them
     using DocOf = std::function<std::string(const std::string& file)>;
 
     PlanPast() = default;
     // The plans that run, the outermost first; `seconds` is how long lines are kept.
-    PlanPast(Plans plans, DocOf doc_of, double seconds);
+    PlanPast(Plans plans, DocOf doc_of, double seconds, Texts texts = {});
 
     // False: this is no line of a trace, and it is not kept.
     bool add(const std::string& line);
     // From the last line on this version of the plan runs (P31), counted from 1; what was before
     // keeps its own. False: it is none that follows, and nothing changes.
-    bool change(uint64_t version, Plans plans);
+    bool change(uint64_t version, Plans plans, Texts texts = {});
     // As if nothing had been told after that instant.
     void cut(double t);
     bool empty() const { return blocks_.empty(); }
@@ -56,6 +58,8 @@ public:
 
     // The document of the topic plan; of no plan before the first line that is kept.
     nlohmann::json at(double t) const;
+    // What a document of the version that ran then said; nothing: it was not of it.
+    std::optional<std::string> text_at(double t, const std::string& doc) const;
     // Actors by plan, then supervisors: HistoryLane of the protocol.
     std::vector<nlohmann::json> lanes(const LaneWindow& window) const;
     // The trace as a file.
@@ -68,13 +72,15 @@ public:
 private:
     struct Block {
         PlanFollower before;
-        PlanFollower::Plans plans;  // that it was told with, and their number
+        PlanFollower::Plans plans;  // that it was told with, their texts and their number
+        std::shared_ptr<const Texts> texts;
         uint64_t version = 1;
         double from = 0, to = 0;
         std::vector<std::string> lines = {};
         size_t bytes = 0;
     };
     void begin_block(double t);
+    const Block* block_at(double t) const;
     void again(const std::string& text, double until);
     void keep(const std::string& text, double t);
     void bound();
@@ -84,7 +90,8 @@ private:
     Lane* lane(const char* kind, const std::string& path, const std::string& name);
 
     PlanFollower::Plans plans_;  // the version that runs
-    uint64_t version_ = 1;       // its number
+    std::shared_ptr<const Texts> texts_ = std::make_shared<const Texts>();
+    uint64_t version_ = 1;  // its number
     DocOf doc_of_;
     double seconds_ = kTraceSeconds;
     std::optional<PlanFollower> now_;

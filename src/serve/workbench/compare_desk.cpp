@@ -46,8 +46,8 @@ Result<Json> differences_of(std::string_view before, const std::string& name,
 
 }  // namespace
 
-CompareDesk::CompareDesk(Desk& desk, Files& files, Running running)
-    : files_(files), running_(std::move(running)) {
+CompareDesk::CompareDesk(Desk& desk, Files& files, Running running, Then then)
+    : files_(files), running_(std::move(running)), then_(std::move(then)) {
     desk.command("plan.differences", [this](const Call& call) { differences(call); });
     desk.command("plan.versions", [this](const Call& call) { versions(call); });
 }
@@ -65,6 +65,13 @@ void CompareDesk::differences(const Call& call) {
         const auto text = running_(doc);
         if (text) return compare(call, *text, doc + " as it runs");
         return call.fail("unavailable", "no plan runs that is made of " + doc + "; Run starts one");
+    }
+    if (against == "then") {
+        const double t = call.in.value("t", 0.0);
+        const auto text = then_(t, doc);
+        if (text) return compare(call, *text, fmt::format("{} at {} s", doc, t));
+        return call.fail("unavailable",
+                         fmt::format("the plan that ran at {} s was not made of {}", t, doc));
     }
     if (against == "file") {
         const std::string file = call.in.value("file", "");

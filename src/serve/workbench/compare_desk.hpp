@@ -1,9 +1,10 @@
 // Two versions of a plan compared, for pages: the commands plan.differences and plan.versions. The
-// one is always the document as it is edited; the other is on disk, runs, is in git, or is another
-// file.
+// one is always the document as it is edited; the other is on disk, runs, ran at an instant, is in
+// git, or is another file.
 //
 //     const auto running = [&](const std::string& doc) { return run_.plan_text(doc); };
-//     CompareDesk compares(desk, files, running);
+//     const auto then = [&](double t, const std::string& doc) { return past_.plan_text(t, doc); };
+//     CompareDesk compares(desk, files, running, then);
 //     compares.tick(now);
 #pragma once
 
@@ -29,9 +30,11 @@ class CompareDesk {
 public:
     // What a document says in the plan that runs; nothing: it does not run.
     using Running = std::function<std::optional<std::string>(const std::string& doc)>;
+    // What it said in the plan that ran at an instant, s.
+    using Then = std::function<std::optional<std::string>(double t, const std::string& doc)>;
 
     // Borrowed. Declares its commands.
-    CompareDesk(Desk& desk, Files& files, Running running);
+    CompareDesk(Desk& desk, Files& files, Running running, Then then);
 
     void tick(Time now);
     Time next_tick() const;
@@ -54,6 +57,7 @@ private:
 
     Files& files_;
     const Running running_;
+    const Then then_;
     std::list<Asked> asked_;
     Time now_{};
 };

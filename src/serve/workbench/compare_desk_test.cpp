@@ -74,7 +74,9 @@ protected:
     }
 
     std::optional<std::string> running;
-    CompareDesk compares{desk, files, [this](const std::string&) { return running; }};
+    CompareDesk compares{
+        desk, files, [this](const std::string&) { return running; },
+        [this](double t, const std::string&) { return t < 2 ? running : std::nullopt; }};
 };
 
 TEST_F(CompareTest, AnUnsavedPlanIsComparedWithItsFile) {
@@ -117,6 +119,14 @@ TEST_F(CompareTest, TheVersionThatRunsIsCompared) {
     running = plan_of("wait", 7);
     EXPECT_THAT(told(ask("plan.differences", ask_for("running"))),
                 ElementsAre("changed actors wait in seconds"));
+}
+
+TEST_F(CompareTest, TheVersionThatRanAtAnInstantIsCompared) {
+    running = plan_of("wait", 7);
+    EXPECT_THAT(told(ask("plan.differences", ask_for("then", {{"t", 1.5}}))),
+                ElementsAre("changed actors wait in seconds"));
+    EXPECT_THAT(refusal("plan.differences", ask_for("then", {{"t", 2.5}})),
+                StartsWith("unavailable: the plan that ran at 2.5 s was not made of P.plan.json"));
 }
 
 TEST_F(CompareTest, WhatCannotBeComparedSaysWhy) {

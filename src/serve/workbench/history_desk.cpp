@@ -172,8 +172,14 @@ History& HistoryDesk::told_at(double t) {
     return *now_;
 }
 
-void HistoryDesk::plan(uint64_t version, const PlanOutlines& plans) {
-    (next_ ? *next_ : *now_).plan(version, plans);
+void HistoryDesk::plan(const talk::PlanVersion& version) {
+    PlanPast::Texts texts;
+    for (const auto& [file, text] : version.texts) texts.emplace(doc_of_(file), text);
+    (next_ ? *next_ : *now_).plan(version.number, version.plans, std::move(texts));
+}
+
+std::optional<std::string> HistoryDesk::plan_text(double t, const std::string& doc) const {
+    return now_->plan() ? now_->plan()->text_at(t, doc) : std::nullopt;
 }
 
 void HistoryDesk::trace(const std::string& line) {

@@ -13,6 +13,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "serve/json.hpp"
 #include "serve/project/files.hpp"
 #include "serve/studio/desk.hpp"
+#include "serve/talk/news.hpp"
 #include "serve/worker.hpp"
 
 namespace vagus::serve {
@@ -52,12 +54,15 @@ public:
     // Another project or target: nothing is kept.
     void forget();
 
+    // What a document said in the plan that ran at an instant; nothing: it was not of it.
+    std::optional<std::string> plan_text(double t, const std::string& doc) const;
+
     // The number of what was begun last.
     uint64_t run() const { return run_; }
 
     // ---- what is told ----
     // What runs from the next line of the trace on, by its number.
-    void plan(uint64_t version, const PlanOutlines& plans);
+    void plan(const talk::PlanVersion& version);
     void trace(const std::string& line);
     void records(const std::string& bytes);
     void happened(Happened happened);

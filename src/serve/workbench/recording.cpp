@@ -41,7 +41,7 @@ void Workbench::record_history() {
     history_.set_doc_of([this](const std::string& file) { return doc_of(file); });
     history_.set_recording_at([this](const std::string& path) { return recording_at(path); });
     run_.on_told({
-        .plan = [this](const talk::PlanVersion& one) { history_.plan(one.number, one.plans); },
+        .plan = [this](const talk::PlanVersion& one) { history_.plan(one); },
         .trace = [this](const std::string& line) { history_.trace(line); },
         .records = [this](const std::string& bytes) { history_.records(bytes); },
         .happened = [this](const Happened& one) { history_.happened(one); },

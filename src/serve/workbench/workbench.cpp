@@ -46,7 +46,9 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
              {.recording_at = [this](const std::string& path) { return recording_at(path); },
               .doc_of = [this](const std::string& file) { return doc_of(file); }}),
       keeps_(keep_rules(), kKeepsAtOnce, shown_run()),
-      compares_(desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); }),
+      compares_(
+          desk, files_, [this](const std::string& doc) { return run_.plan_text(doc); },
+          [this](double t, const std::string& doc) { return history_.plan_text(t, doc); }),
       tries_(desk, files_, places.program,
              {.toolboxes = [this] { return toolboxes_on_disk(); },
               .real = [this](const std::string& doc) { return real(doc); },

@@ -20,7 +20,12 @@ export function inputsAhead(actor: Actor | undefined): Ahead[] {
 /** "seconds = n * 20 s · n 3": with the values that the formulas name, as they are now. */
 export function aheadText(ahead: readonly Ahead[], values: ReadonlyMap<string, string>): string {
   const formulas = ahead.map(({ name, formula, unit }) => `${name} = ${formula} ${unit}`.trim());
-  const words = new Set(ahead.flatMap(({ formula }) => formula.match(/[A-Za-z_]\w*/g) ?? []));
+  const words = namedIn(ahead);
   const named = [...values].filter(([name]) => words.has(name));
   return [...formulas, ...named.map(([name, value]) => `${name} ${value}`)].join(' · ');
+}
+
+/** What the formulas name: variables, and functions. */
+export function namedIn(ahead: readonly Ahead[]): ReadonlySet<string> {
+  return new Set(ahead.flatMap(({ formula }) => formula.match(/[A-Za-z_]\w*/g) ?? []));
 }

@@ -13,6 +13,8 @@ type Output = Commands['plan.differences']['out'];
 /** The other version; name: how it is called on screen. */
 export interface Other {
   against: Input['against'];
+  /** Of `then`. */
+  t?: number;
   revision?: string;
   file?: Doc;
   name: string;
@@ -56,8 +58,9 @@ export class Comparing {
   async ask(): Promise<void> {
     const { doc, other } = this;
     if (doc === null || other === null) return;
-    const { against, revision, file } = other;
+    const { against, t, revision, file } = other;
     const input: Input = { doc, against };
+    if (t !== undefined) input.t = t;
     if (revision !== undefined) input.revision = revision;
     if (file !== undefined) input.file = file;
     const isAsked = () => this.doc === doc && this.other === other;

@@ -38,6 +38,8 @@ export const planWords = {
     then: '“Run from here” uses this change.',
     kept: (actor: string, since: string) =>
       `${actor} keeps the values with which it started at ${since} s.`,
+    taken: (actor: string, names: string, since: string) =>
+      `${actor} read ${names} when it started at ${since} s.`,
     fromStart: (since: string) => `Run from ${since} s`,
     holds: (name: string, value: string) => `${name} is ${value} at this instant.`,
     setThen: (value: string) => `Set it to ${value}`,

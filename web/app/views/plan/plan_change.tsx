@@ -21,12 +21,11 @@ export function PlanChange({ doc }: { doc: Doc }) {
   const past = usePastTime();
   const unsaved = useUnsaved(doc);
   const goes = plan?.state === 'running' || plan?.state === 'paused';
-  const version = usePart('doc', goes && unsaved ? { doc } : null, (is) => is?.version);
-  const answer = useAnswer(doc, goes && unsaved, version, plan);
+  const answer = useAnswer(doc, goes && unsaved && past === null, plan);
+  if (past !== null) return <PlanChangeThen doc={doc} />;
   if (!goes) return null;
   if (unsaved) {
     if (!answer?.runs) return null;
-    if (past !== null) return <PlanChangeThen doc={doc} version={version} />;
     const can = answer.reasons.length === 0;
     return (
       <Line
@@ -101,10 +100,10 @@ function useUnsaved(doc: Doc): boolean {
 function useAnswer(
   doc: Doc,
   asks: boolean,
-  version: number | undefined,
   plan: Topics['plan']['is'] | undefined,
 ): ChangeAnswer | null {
   const studio = useStudio();
+  const version = usePart('doc', asks ? { doc } : null, (is) => is?.version);
   const active = plan?.levels.map((level) => `${level.path} ${level.activation}`).join(' ');
   const [answer, setAnswer] = useState<ChangeAnswer | null>(null);
   const question = useRef<ChangeQuestion | null>(null);

@@ -1,28 +1,31 @@
 import { IconArrowsExchange } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import type { Doc, PlanDifference, PlanLevel } from '../../../protocol/messages';
-import { kPastStep } from '../../../core/past';
+import { kAskEveryMs } from '../../../core/plan/change';
 import { keptOf, startValues, type StartValue } from '../../../core/plan/change_then';
+import { isPlace } from '../../../core/plan/differences';
 import { valueOf } from '../../../core/plan_view';
-import { useChanges, useStudio } from '../../hooks';
-import { usePastTime } from '../../past_hooks';
+import { useChanges, usePart, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { RunFromHere } from '../run_from_here';
 import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
+import { RunFromStart } from './run_from_start';
 
 const words = planWords.change;
 
 /** What a change means for a run from the instant that is looked back at: what counts, what keeps its values, and how it counts, too. */
-export function PlanChangeThen({ doc, version }: { doc: Doc; version: number | undefined }) {
-  const studio = useStudio();
-  const differences = useDifferences(doc, version);
-  useChanges(studio.past.changed);
-  useChanges(studio.past.settings.changed);
-  const levels = studio.past.plan?.levels.filter((one) => one.doc === doc) ?? [];
+export function PlanChangeThen({ doc }: { doc: Doc }) {
+  const { past, registry } = useStudio();
+  useChanges(past.changed);
+  useChanges(past.settings.changed);
+  const levels = past.plan?.levels.filter((one) => one.doc === doc) ?? [];
+  const goesOn = levels.length > 0 && registry.isEnabled('past.continue');
+  const differences = useDifferences(doc, goesOn ? past.shown : null);
+  if (!goesOn || differences.length === 0) return null;
   // Those notices have the button.
-  const isSet = studio.past.settings.of(levels).length > 0;
+  const isSet = past.settings.of(levels).length > 0;
   return (
     <div className="notice planchange" role="status">
       <IconArrowsExchange className="icon" size={14} stroke={kStroke} aria-hidden />
@@ -32,7 +35,7 @@ export function PlanChangeThen({ doc, version }: { doc: Doc; version: number | u
           <Kept key={level.path} level={level} differences={differences} />
         ))}
       </div>
-      <ShowDifferences doc={doc} from="running" />
+      <ShowDifferences doc={doc} from="then" />
       {isSet ? null : <RunFromHere />}
     </div>
   );
@@ -46,29 +49,14 @@ function Kept({
   level: PlanLevel;
   differences: readonly PlanDifference[];
 }) {
-  const studio = useStudio();
-  const { past, registry } = studio;
-  const at = usePastTime();
-  const kept = keptOf(level, differences);
+  const { past } = useStudio();
   const starts = startValues(level, differences).filter(
     ({ name }) => past.settings.get(level.path, name) === undefined,
   );
-  const runFromStart = () => {
-    const doc = past.plan?.doc;
-    if (level.since === 0) return studio.order('plan.start', doc === undefined ? {} : { doc });
-    // Somewhat before: what was on its way at that instant is heard before the change is.
-    past.look(level.since - kPastStep);
-    registry.run('past.continue');
-  };
   return (
     <>
-      {kept && at !== null && level.since < at ? (
-        <p className="planchange__kept">
-          {words.kept(level.actor, level.since.toFixed(1))}
-          <Button small onClick={runFromStart}>
-            {words.fromStart(level.since.toFixed(1))}
-          </Button>
-        </p>
+      {keptOf(level, differences) ? (
+        <RunFromStart level={level} what={words.kept(level.actor, level.since.toFixed(1))} />
       ) : null}
       {starts.map((one) => (
         <Start key={one.name} level={level} start={one} />
@@ -90,20 +78,28 @@ function Start({ level, start }: { level: PlanLevel; start: StartValue }) {
   );
 }
 
-/** Between the document and the plan that ran; asked again with each version of the text. */
-function useDifferences(doc: Doc, version: number | undefined): readonly PlanDifference[] {
+const kNone: readonly PlanDifference[] = [];
+
+/** Between the document and the plan that ran at that instant; null: not asked. */
+function useDifferences(doc: Doc, t: number | null): readonly PlanDifference[] {
   const studio = useStudio();
-  const [found, setFound] = useState<readonly PlanDifference[]>([]);
+  const version = usePart('doc', t === null ? null : { doc }, (is) => is?.version);
+  const [found, setFound] = useState(kNone);
   useEffect(() => {
+    if (t === null) return;
     let counts = true;
-    studio
-      .send('plan.differences', { doc, against: 'running' })
-      .then(({ differences }) => counts && setFound(differences))
-      // Of a text with errors there are none to tell; the errors are shown.
-      .catch(() => counts && setFound([]));
+    const ask = () =>
+      void studio
+        .send('plan.differences', { doc, against: 'then', t })
+        .then(({ differences }) => counts && setFound(differences.filter((one) => !isPlace(one))))
+        // A text with errors, whose errors are shown, or a plan that is not known any more.
+        .catch(() => counts && setFound(kNone));
+    // Not for each instant that a drag goes through.
+    const cancel = studio.world.later(kAskEveryMs, ask);
     return () => {
       counts = false;
+      cancel();
     };
-  }, [studio, doc, version]);
-  return found;
+  }, [studio, doc, t, version]);
+  return t === null ? kNone : found;
 }

@@ -1,11 +1,14 @@
 import { IconArrowsExchange } from '@tabler/icons-react';
-import type { Doc } from '../../../protocol/messages';
+import type { Doc, PlanLevel } from '../../../protocol/messages';
+import { inputsAhead, namedIn } from '../../../core/plan/ahead';
 import { valueOf } from '../../../core/plan_view';
 import { useChanges, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { RunFromHere } from '../run_from_here';
 import { planWords } from './live_words';
+import { usePlanDesk } from './plan_desk';
+import { RunFromStart } from './run_from_start';
 
 const words = planWords.change;
 
@@ -14,9 +17,10 @@ export function PlanSettings({ doc }: { doc: Doc }) {
   const { past } = useStudio();
   useChanges(past.changed);
   useChanges(past.settings.changed);
-  const set = (past.plan?.levels ?? []).flatMap(({ path, doc: of, variables }) =>
+  const levels = past.plan?.levels.filter((one) => one.doc === doc) ?? [];
+  const set = levels.flatMap(({ path, variables }) =>
     variables.flatMap(({ name, value }) => {
-      const to = of === doc ? past.settings.get(path, name) : undefined;
+      const to = past.settings.get(path, name);
       return to === undefined ? [] : [{ path, name, value, to }];
     }),
   );
@@ -33,8 +37,26 @@ export function PlanSettings({ doc }: { doc: Doc }) {
             </Button>
           </p>
         ))}
+        {levels.map((level) => (
+          <Taken key={level.path} level={level} />
+        ))}
       </div>
       <RunFromHere />
     </div>
   );
+}
+
+/** The active actor has read the variable already: another value counts when it starts again. */
+function Taken({ level }: { level: PlanLevel }) {
+  const studio = useStudio();
+  const { shown } = usePlanDesk(studio);
+  const model = shown?.board.doc === level.doc ? shown.board.model : undefined;
+  const actor = model?.actors.find((one) => one.name === level.actor);
+  const taken = level.variables
+    .map(({ name }) => name)
+    .filter((name) => studio.past.settings.get(level.path, name) !== undefined)
+    .filter((name) => namedIn(inputsAhead(actor)).has(name));
+  if (taken.length === 0) return null;
+  const what = words.taken(level.actor, taken.join(', '), level.since.toFixed(1));
+  return <RunFromStart level={level} what={what} />;
 }

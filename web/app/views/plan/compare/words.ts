@@ -21,7 +21,11 @@ export const compareWords = {
   asksGit: 'Git is asked…',
   files: 'Another plan',
   commit: (subject: string, revision: string) => `“${subject}” (${revision.slice(0, 7)})`,
-  names: { disk: 'the file on disk', running: 'the version that runs' },
+  names: {
+    disk: 'the file on disk',
+    running: 'the version that runs',
+    then: (t: string) => `the version that ran at ${t} s`,
+  },
   strip: (name: string) => `Compared with ${name}`,
   waits: 'The versions are compared…',
   none: 'No difference.',

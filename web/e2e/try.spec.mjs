@@ -155,6 +155,11 @@ test('a plan is tried by clicks in the drawing, to its end', project, async (stu
   await press('Escape');
   await gone(bar(page));
   assert.equal(await page.locator('.pactor.is-active').count(), 0);
+  // Digits typed before it is there, and before an answer is, are for what comes: into the sub-plan and out of it.
+  await studio.command('Try the plan by hand');
+  await press('3', '1', '1');
+  await reads(value(page), /rounds\s*1/);
+  await reads(bar(page), /drive is active/);
 });
 
 const kAsking = {

@@ -38,6 +38,32 @@ test('states come before events, and each choice is asked with all before it', a
   expect(trying.way).toEqual([choice('drive', 'Blocked')]);
 });
 
+test('a number pressed before its answer is there is for what that offers', async () => {
+  const asked: Commands['plan.try']['in'][] = [];
+  const trying = new Trying((input) => {
+    asked.push(input);
+    return Promise.resolve(waiting());
+  });
+  trying.start('Hall.plan.json');
+  for (const number of [2, 3, 1]) void trying.press(number);
+  await new Promise((resolve) => setImmediate(resolve));
+  expect(asked.map(({ way }) => way.length)).toEqual([0, 1, 2, 3]);
+  expect(asked.at(-1)?.way).toEqual([
+    choice('drive', 'Blocked'),
+    choice('near', 'Near'),
+    choice('drive', 'Done'),
+  ]);
+  // One that nothing has ends what was pressed ahead; so does a step back.
+  void trying.press(9);
+  for (const number of [1, 9, 1]) void trying.press(number);
+  await new Promise((resolve) => setImmediate(resolve));
+  expect(trying.way).toHaveLength(4);
+  void trying.press(1);
+  void trying.press(1);
+  await trying.back(2);
+  expect(trying.way).toHaveLength(2);
+});
+
 test('outputs go with a state, not with an event; a wrong one is refused', async () => {
   const asked: Commands['plan.try']['in'][] = [];
   const distance = { name: 'distance', type: 'float' } as const;

@@ -13,6 +13,9 @@ export type Tried = Commands['plan.try']['out'];
 export type Turn = Tried['turns'][number];
 export type Output = NonNullable<Tried['waits']>['outputs'][number];
 
+/** More numbers than these are not pressed ahead of an answer. */
+const kEarlyMax = 16;
+
 /** What can be chosen: a state in which the active actor ends, an event that a supervisor raises. */
 export interface Option extends TryChoice {
   is: 'state' | 'event';
@@ -29,6 +32,8 @@ export class Trying {
   trouble = '';
   /** The answer to the last choice has not come yet. */
   waits = false;
+  /** Numbers that were pressed before that answer came: they are for what it offers. */
+  private early: readonly number[] = [];
   /** What was typed for outputs of the active actor, by name. */
   typed: Readonly<Record<string, string>> = {};
   private asked = 0;
@@ -75,6 +80,17 @@ export class Trying {
     return text !== '' && valueOf(output, text) === undefined;
   }
 
+  /** Chooses an option by its number, from 1. While an answer is awaited it is one of that answer's. */
+  async press(number: number): Promise<void> {
+    if (this.waits) {
+      this.early = [...this.early, number].slice(0, kEarlyMax);
+      return;
+    }
+    const option = this.options[number - 1];
+    if (option) await this.choose(option);
+    else this.early = [];
+  }
+
   /** Nothing while an output is wrong. */
   async choose({ path, element, outcome, is }: TryChoice & { is?: Option['is'] }): Promise<void> {
     // What is chosen while an answer is awaited is chosen in a situation that is over.
@@ -93,6 +109,7 @@ export class Trying {
 
   /** As it was after so many choices. */
   async back(count: number): Promise<void> {
+    this.early = [];
     await this.go(this.way.slice(0, Math.max(0, count)));
   }
 
@@ -123,9 +140,13 @@ export class Trying {
     } catch (problem) {
       if (number !== this.asked) return;
       this.trouble = sentenceOf(whyOf(problem));
+      this.early = [];
     }
     this.waits = false;
     this.changed.emit();
+    const [next, ...rest] = this.early;
+    this.early = rest;
+    if (next !== undefined) await this.press(next);
   }
 
   /** A run that begins, or the past, is shown in its place; the way is there when it is tried again. */
@@ -138,6 +159,7 @@ export class Trying {
 
   leave(): void {
     ++this.asked;
+    this.early = [];
     const nothing = { doc: null, way: [], answer: null, trouble: '', waits: false, typed: {} };
     Object.assign(this, nothing);
     this.changed.emit();

@@ -4,6 +4,7 @@ import type { Doc } from '../../../../protocol/messages';
 import type { Trying } from '../../../../core/plan/trying';
 import { Button } from '../../../parts/button';
 import { kStroke } from '../../../parts/icons';
+import { digitOf } from './digits';
 import { KeepTest } from './keep_test';
 import { Lane } from './lane';
 import { Options } from './options';
@@ -94,21 +95,14 @@ function pressed(event: KeyboardEvent<HTMLElement>, trying: Trying): void {
   const isTyped = event.target instanceof HTMLInputElement && key !== 'Escape';
   if (isTyped) return;
   const digit = digitOf(event);
-  const option = digit === null ? undefined : trying.options[digit - 1];
   const by = { ArrowRight: 1, ArrowLeft: -1 }[key];
-  if (option) void trying.choose(option);
+  if (digit !== null) void trying.press(digit);
   else if (key === 'Backspace') void trying.back(trying.way.length - 1);
   else if (key === 'Escape') trying.leave();
   else if (by !== undefined) move(event.currentTarget, by);
   else return;
   event.preventDefault();
   event.stopPropagation();
-}
-
-/** 1 to 9, also where the row of digits types others without Shift (French: &, é, "). */
-function digitOf({ key, code }: KeyboardEvent): number | null {
-  const typed = /^[1-9]$/.exec(key)?.[0] ?? /^Digit([1-9])$/.exec(code)?.[1];
-  return typed === undefined ? null : Number(typed);
 }
 
 function move(frame: HTMLElement, by: number): void {

@@ -8,6 +8,7 @@ import type { Studio } from '../../../../core/studio';
 import { kindOf } from '../../../documents';
 import { useChanges, useStudio } from '../../../hooks';
 import { text } from '../../../text';
+import { hearDigits } from './digits';
 import { tryWords as words } from './words';
 
 export function tryCommands(studio: Studio): Command[] {
@@ -26,7 +27,9 @@ export function tryCommands(studio: Studio): Command[] {
 /** Shown in place of what runs, now: of the past nothing is shown then. */
 export function tryPlan(studio: Studio, doc: Doc): void {
   studio.past.back();
-  tryingOf(studio).start(doc);
+  const trying = tryingOf(studio);
+  trying.start(doc);
+  hearDigits(trying);
 }
 
 /** Chooses what was clicked in the drawing of a plan that is tried; false: it is nothing to choose. null: none is tried. */

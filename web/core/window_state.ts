@@ -17,7 +17,7 @@ export interface Toast {
 
 /** Asks for a panel or a place in a document to be brought to the front. */
 export type Reveal =
-  | { nonce: number; what: 'panel'; panel: string; focus: boolean }
+  | { nonce: number; what: 'panel'; panel: string; focus: boolean; over?: string }
   | { nonce: number; what: 'doc'; doc: Doc; at: Place | null; focus: boolean; beside: boolean };
 
 export interface WindowState {
@@ -135,11 +135,14 @@ export function revealDoc(
   });
 }
 
-/** One that shows itself, without the keyboard, waits for nobody: a place that its editor has still to show goes first. */
-export function revealPanel(store: WindowStore, panel: string, focus = true): void {
+/**
+ * One that shows itself, without the keyboard, waits for nobody: a place that its editor has still to show goes first.
+ * over: it comes only in place of that panel, where both are in one area.
+ */
+export function revealPanel(store: WindowStore, panel: string, focus = true, over?: string): void {
   update(store, (draft) => {
     if (!focus && draft.reveal?.what === 'doc' && draft.reveal.at !== null) return;
-    draft.reveal = { nonce: ++count, what: 'panel', panel, focus };
+    draft.reveal = { nonce: ++count, what: 'panel', panel, focus, ...(over && { over }) };
   });
 }
 

@@ -129,6 +129,10 @@ test(
     await seen(bar(page));
     await seen(page.getByRole('region', { name: /drawn$/ }));
     assert.ok(await raised.isVisible());
+    // Who clicks another element goes on with that.
+    await page.getByRole('group', { name: /^followWall, actor/ }).click();
+    await seen(page.getByRole('region', { name: 'Properties' }).getByText('followWall').first());
+    assert.ok(!(await raised.isVisible()));
   },
 );
 

@@ -275,6 +275,7 @@ function show(studio: Studio, model: Model, reveal: Reveal): void {
   const there = model.getNodeById(id);
   if (reveal.what === 'panel' && !reveal.focus) {
     if (hidesDocument(there ? there.getParent() : areaForPanel(model, reveal.panel))) return;
+    if (reveal.over && !shows(there?.getParent(), `panel:${reveal.over}`)) return;
   }
   if (there instanceof TabNode && !(reveal.what === 'doc' && reveal.beside))
     model.doAction(Actions.selectTab(id));
@@ -310,6 +311,9 @@ function growTiny(model: Model, tab: unknown): void {
 function hidesDocument(area: Node | undefined): boolean {
   return area instanceof TabSetNode && area.getSelectedNode()?.getId().startsWith('doc:') === true;
 }
+
+const shows = (area: Node | undefined, tab: string): boolean =>
+  area instanceof TabSetNode && area.getSelectedNode()?.getId() === tab;
 
 function add(
   model: Model,

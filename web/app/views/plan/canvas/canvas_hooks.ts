@@ -63,10 +63,17 @@ function choose(board: PlanBoard, changes: readonly NodeChange<PlanNode>[]): voi
   board.selectAll([...kept, ...come]);
 }
 
-/** A click on one of several that are chosen means this one: the library would leave all of them chosen. */
-export function chooseOnly(board: PlanBoard, key: string, event: React.MouseEvent): void {
-  const adds = event.ctrlKey || event.metaKey || event.shiftKey;
-  if (!adds && board.selection.size > 1 && board.selection.has(key)) board.select(key);
+/**
+ * A click on one of several that are chosen means this one: the library would leave all of them chosen.
+ * Its form comes in place of an answer about something else.
+ */
+export function useClicked(board: PlanBoard) {
+  const studio = useStudio();
+  return (key: string, event: React.MouseEvent) => {
+    const adds = event.ctrlKey || event.metaKey || event.shiftKey;
+    if (!adds && board.selection.size > 1 && board.selection.has(key)) board.select(key);
+    revealPanel(studio.window, 'properties', false, 'why');
+  };
 }
 
 /** What is seen of the plan. */

@@ -12,7 +12,7 @@ import { useBoard } from '../plan_desk';
 import { usePlanOptions } from '../plan_options';
 import { ActiveLine } from './active_line';
 import { ArrowsLayer } from './arrows_layer';
-import { chooseOnly, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
+import { useClicked, useKeptFocus, useNodeChanges, useNodes, useOnDesk } from './canvas_hooks';
 import { CanvasContexts } from './canvas_contexts';
 import { ConnectMenu } from './connect_menu';
 import { kManyNodes, useAfterwards, useDistance } from './distance';
@@ -64,6 +64,7 @@ function Canvas({ board }: { board: PlanBoard }) {
   const { menu, closeMenu, ...menus } = useElementMenu(board);
   const options = usePlanOptions();
   const tries = useTriedClick(board);
+  const clicked = useClicked(board);
   const onNodesChange = useNodeChanges(board);
   if (!isKnown) return <Blank title={words.broken}>{broken}</Blank>;
   return (
@@ -93,7 +94,7 @@ function Canvas({ board }: { board: PlanBoard }) {
           nodeTypes={nodeTypes}
           onNodesChange={onNodesChange}
           onMoveStart={(event) => event && worksOn()}
-          onNodeClick={(event, { id }) => tries?.(event, id) || chooseOnly(board, id, event)}
+          onNodeClick={(event, { id }) => tries?.(event, id) || clicked(id, event)}
           {...menus}
           onPaneClick={() => {
             board.select(null);

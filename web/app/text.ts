@@ -176,6 +176,7 @@ export const text = {
     'draw.script': 'Plan: go to the script',
     'draw.log': 'Plan: log values here',
     'draw.why': 'Plan: why is the selected actor active, or why did it end?',
+    'draw.connect': 'Plan: draw an arrow from the selection…',
     'draw.fit': 'Plan: fit it into the window',
     'draw.add': 'Plan: add an element…',
     'draw.find': 'Plan: find an element',

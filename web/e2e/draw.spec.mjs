@@ -182,6 +182,17 @@ test('a plan is drawn and corrected with keys alone', empty, async (studio) => {
   await type('1 + 1');
   await press('Enter');
   await gone(page.getByRole('button', { name: 'Enter a value' }));
+  // The key that draws an arrow is in the list of keys, and asks where the next one leads.
+  await goToPlan();
+  await press('?');
+  await seen(page.getByRole('dialog').getByText('Plan: draw an arrow from the selection…'));
+  await press('Escape');
+  await focused('the plan', drawing);
+  await press('c');
+  await seen(page.getByText('Done: connect to…'));
+  await press('Escape');
+  // At the port, too, Alt+Enter is what fixes.
+  await focused('the port', page.getByRole('button', { name: /^Done leads nowhere/ }));
   await press('Alt+Enter');
   await seen(page.getByRole('menuitem', { name: 'terminate' }));
   await type('term');

@@ -184,6 +184,14 @@ export class PlanBoard {
     return arrows.find((one) => one.id === id) ?? loose.find((one) => one.id === id);
   }
 
+  /** Where the next arrow of what is selected begins: at a state or event that leads nowhere yet, if there is one. */
+  get nextPort(): string | null {
+    const { selected } = this;
+    if (this.arrow(selected)) return selected;
+    const { arrows, loose } = this.drawing;
+    return [...loose, ...arrows].find(({ source }) => source === selected)?.id ?? null;
+  }
+
   private has(key: string): boolean {
     return (
       key === kStart ||

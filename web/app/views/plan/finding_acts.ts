@@ -52,7 +52,7 @@ export function actFor(studio: Studio, finding: Finding): FindingAct | null {
 }
 
 /** The list of what may follow, at the port where the arrow begins. */
-function askAt(port: () => string | null): void {
+export function askAt(port: () => string | null): void {
   takeFocus(() => {
     const id = port();
     const found = id === null ? null : shown(`[data-plan-port="${CSS.escape(id)}"]`);

@@ -10,6 +10,7 @@ import { text } from '../../../text';
 import { drawWords } from '../words';
 import { withBreaks } from '../break_acts';
 import { planDeskOf, type ShownPlan } from '../plan_desk';
+import { askAt } from '../finding_acts';
 import { exportPng, exportSvg } from './export_picture';
 import { copyByCommand, cut, hasClipboard, pasteByCommand } from './plan_clipboard';
 import { chosenSubPlan, extractChosen, openSubPlan } from './sub_plan_commands';
@@ -92,6 +93,12 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       ['Ctrl+Shift+E'],
       (plan) => extractChosen(studio, plan),
       ({ board }) => edits() && board.chosenActors.size > 0,
+    ),
+    make(
+      'draw.connect',
+      ['C'],
+      ({ board }) => askAt(() => board.nextPort),
+      ({ board }) => edits() && board.nextPort !== null,
     ),
     make('draw.add', ['A'], () => revealPanel(studio.window, 'palette'), edits),
     make('draw.fit', ['1'], () => acts.fit()),

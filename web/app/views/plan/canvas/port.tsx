@@ -51,7 +51,9 @@ export function Port(props: {
       disabled={connect === null}
       onPointerDown={(event) => connect?.begin(event, { id, source, outcome })}
       onKeyDown={(event) => {
-        if (event.key !== 'Enter' && event.key !== ' ') return;
+        const { key, altKey, ctrlKey, metaKey } = event;
+        // With Alt it is the key that fixes the next problem.
+        if ((key !== 'Enter' && key !== ' ') || altKey || ctrlKey || metaKey) return;
         event.preventDefault();
         event.stopPropagation();
         connect?.ask({ id, source, outcome }, event.currentTarget);

@@ -162,4 +162,8 @@ test('what cannot be answered says why', wall, async ({ page, press, layout }) =
   await page.getByRole('group', { name: /^followWall, actor/ }).focus();
   await press('Space', 'w');
   await reads(page.getByRole('alert'), /by then there was no actor "followWall"/);
+  // Of a thing in the world nothing can be asked, and the key says of what.
+  await world(page).focus();
+  await press('n', 'w');
+  await reads(page.getByRole('log', { name: 'Messages' }), /Select a robot of the run first\./);
 });

@@ -29,6 +29,23 @@ test.each([
   );
 });
 
+test.each([
+  ['W', true],
+  ['Shift+N', true],
+  ['Delete', true],
+  ['Escape', false],
+  ['Enter', false],
+  ['ArrowLeft', false],
+  ['Ctrl+D', false],
+])('AKeyOfAPlaceSaysSoThere %s %s', (key, says) => {
+  const own = studio();
+  const why = { id: 'world.why', title: 'Why?', group: '', within: 'world', run: vi.fn() };
+  expect(refuse(own, why, key)).toBe(says);
+  expect(own.window.getState().toasts.map((one) => one.text)).toEqual(
+    says ? ['Why?: Select a robot of the run first.'] : [],
+  );
+});
+
 const command = (id: string) => ({ id, title: id, group: '', run: vi.fn() });
 
 test('TheReasonIsTheOneThatAPersonCanRemove', () => {

@@ -40,9 +40,13 @@ export function whyNot(studio: Studio, { id, within }: Command): string {
 
 const isAway = (studio: Studio) => !answers(studio.connection.link);
 
+/** So is a letter, or what deletes, for who is at a place that has commands on them and types nothing. */
+const kKeysOfPlace = /^(Shift\+)?(.|Delete|Backspace)$/;
+
 /** Says why the key of a command does nothing now; false where the key is left to the browser. */
 export function refuse(studio: Studio, command: Command, key: string): boolean {
-  if (!kOwnKeys.test(key) || projectOf(studio) === null) return false;
+  const isOurs = kOwnKeys.test(key) || (command.within !== undefined && kKeysOfPlace.test(key));
+  if (!isOurs || projectOf(studio) === null) return false;
   toast(studio.window, 'note', `${command.title}: ${whyNot(studio, command)}`);
   return true;
 }

@@ -14,6 +14,8 @@ export interface Command {
   keysAreEvents?: boolean;
   /** Why not now, or true. Without it the command is always there. */
   enabled?(): boolean;
+  /** Why not, where the words of its id do not say it; '': they do. */
+  why?(): string;
   /** Not offered in the palette: it makes sense only at its place. */
   hidden?: boolean;
   run(): void | Promise<void>;

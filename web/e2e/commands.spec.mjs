@@ -192,10 +192,36 @@ test(
   },
 );
 
-test('a key that can do nothing now says why', example, async ({ page, press, layout }) => {
-  await layout('Script');
+test('a key that can do nothing now says why', example, async (studio) => {
+  const { page, press, type, command, editor } = studio;
+  await seen(page.getByRole('region', { name: /drawn$/ }));
   await press('F8');
   await reads(page.getByRole('log', { name: 'Messages' }), /Pause: Nothing is running\./);
+  // What a command says is about what is in front.
+  const why = async (/** @type {string} */ title) => {
+    await press('Control+k');
+    await type(title);
+    const row = page.locator('.palette__item').filter({ hasText: title }).first();
+    const said = await row.locator('.palette__why').allInnerTexts();
+    await press('Escape');
+    return said.join();
+  };
+  assert.equal(await why('Next difference'), 'Compare the plan with another version first.');
+  await command('Layout Script');
+  await focused(editor('drive'));
+  assert.equal(await why('Breakpoint on this line'), '');
+  await page.getByRole('treeitem', { name: 'hall.world' }).dblclick();
+  const mode = (/** @type {string} */ name) => page.getByRole('radio', { name, exact: true });
+  await mode('Edit').focus();
+  await press('ArrowLeft');
+  await focused(mode('Live'));
+  assert.match(await why('World: add a Carbot'), /choose Edit first/);
+  await focused(mode('Live'));
+  // Arrows go on from mode to mode, and commands are for the one that is shown.
+  await press('ArrowRight');
+  await focused(mode('Edit'));
+  assert.equal(await why('World: add a Carbot'), '');
+  assert.equal(await why('World: delete the selected thing'), 'Select a thing in the world first.');
 });
 
 test('the path of a file is copied', example, async ({ page, layout }) => {

@@ -28,11 +28,14 @@ const kActs =
 const kOwnKeys = /(^|\+)F\d+$|^(Ctrl\+)?Alt\+/;
 
 /** '' if it can be done. */
-export function whyNot(studio: Studio, { id, within }: Command): string {
+export function whyNot(studio: Studio, command: Command): string {
+  const { id, within } = command;
   if (studio.registry.isEnabled(id)) return '';
   if (projectOf(studio) === null) return words.noProject;
   if (!studio.drives && !kLooks.test(id)) return isAway(studio) ? words.away : words.viewOnly;
   if (studio.past.at !== null && kActs.test(id)) return words.looksBack;
+  const why = command.why?.() ?? '';
+  if (why !== '') return why;
   const own: Partial<Record<string, string>> = words.of;
   const group = id.slice(0, id.indexOf('.') + 1);
   return own[id] ?? own[group] ?? (within === undefined ? words.notNow : words.elsewhere);

@@ -222,13 +222,14 @@ export function noteShown(studio: Studio, model: Model): void {
   if (doc !== null) update(studio.window, (draft) => void (draft.doc = doc));
 }
 
-/** Before anything was clicked F5 and the keyboard are for what the window opens with, a plan first. */
+/**
+ * Before anything was clicked F5 and the keyboard are for what the window opens with, a plan first; so they are in
+ * another layout, where what was looked at is behind something else.
+ */
 function noteFirst(studio: Studio, model: Model): void {
-  if (studio.window.getState().doc !== null) return;
-  const shown = documentTabs(model).filter(([id]) => {
-    const area = model.getNodeById(id)?.getParent();
-    return area instanceof TabSetNode && area.getSelectedNode()?.getId() === id;
-  });
+  const shown = documentTabs(model).filter(([id]) => shows(model.getNodeById(id)?.getParent(), id));
+  const { doc: last } = studio.window.getState();
+  if (shown.some(([, doc]) => doc === last)) return;
   const [, first] = shown.find(([, doc]) => kindOf(doc) === 'plan') ?? shown[0] ?? [];
   if (first !== undefined) update(studio.window, (draft) => void (draft.doc = first));
 }

@@ -1,4 +1,4 @@
-import { useRef } from 'react';
+import { useLayoutEffect, useRef } from 'react';
 import { tipOf } from './button';
 
 interface Segment<T> {
@@ -16,10 +16,16 @@ export function Segments<T>(props: {
   small?: boolean;
   numbers?: boolean;
   disabled?: boolean;
+  /** The chosen one has the keyboard once it is there. */
+  takesFocus?: boolean;
 }) {
   const { label, segments, chosen, onChoose, small, numbers, disabled = false } = props;
   const group = useRef<HTMLDivElement>(null);
   const at = segments.findIndex(({ value }) => value === chosen);
+  const { takesFocus = false } = props;
+  useLayoutEffect(() => {
+    if (takesFocus) group.current?.querySelector<HTMLElement>('[aria-checked=true]')?.focus();
+  }, [takesFocus]);
   const move = (by: number) => {
     const next = (at + by + segments.length) % segments.length;
     const segment = segments[next];

@@ -89,6 +89,7 @@ export const drawWords = {
   subPlans: {
     title: 'sub-plans',
     help: 'Other plans of this project, each as one actor.',
+    choose: 'Select a sub-plan first.',
     back: (name: string) => `Back to ${name}`,
     made: (name: string) => `The chosen actors are the plan ${name} now.`,
     whyNot: {

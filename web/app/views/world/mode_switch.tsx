@@ -11,10 +11,16 @@ const segments = worldModes.map((value) => ({
 }));
 
 /** The same world three times: as it runs, its file drawn, its file as text. */
-export function ModeSwitch(props: { mode: WorldMode; onChange: (mode: WorldMode) => void }) {
+export function ModeSwitch(props: {
+  mode: WorldMode;
+  /** Each mode has a bar of its own: this one comes in place of that in which it was chosen. */
+  takesFocus: boolean;
+  onChange: (mode: WorldMode) => void;
+}) {
   return (
     <Segments
       small
+      takesFocus={props.takesFocus}
       label={formWords.mode}
       segments={segments}
       chosen={props.mode}

@@ -50,3 +50,11 @@ export function entryText(file: Json, key: string): { t: string; what: string } 
     what: verb ? words.entryText[verb](what) : textOf(entry['do']),
   };
 }
+
+/** What a command needs first. */
+export const worldNeeds = {
+  open: 'Open a world first.',
+  edit: 'Open the file of a world and choose Edit first.',
+  select: 'Select a thing in the world first.',
+  robotStays: 'A robot cannot be taken out of a run. Choose Edit to delete it from the file.',
+};

@@ -14,7 +14,7 @@ import { deskOf, type ShownWorld } from './desk';
 import { keepInWorld, redoInRun, undoInRun } from './keep_acts';
 import { optionsOf, toggleOption } from './options';
 import { putDown } from './use_hands';
-import { spokenPlace } from './words';
+import { spokenPlace, worldNeeds as words } from './words';
 import { askWhy } from '../../commands/ask_why';
 import { projectOf } from '../../commands/looks';
 
@@ -34,7 +34,10 @@ export function worldCommands(studio: Studio): Command[] {
     id: WorldId,
     keys: string[],
     run: (world: ShownWorld) => void,
-    more: { may?: (world: ShownWorld) => boolean; hidden?: boolean } = {},
+    {
+      needs,
+      ...more
+    }: { may?: (world: ShownWorld) => boolean; hidden?: boolean; needs?: Need } = {},
   ): Command => ({
     id,
     title: titles[id],
@@ -42,6 +45,7 @@ export function worldCommands(studio: Studio): Command[] {
     within,
     ...(keys.length > 0 ? { keys } : {}),
     ...(more.hidden ? { hidden: true } : {}),
+    ...(needs ? { why: () => whyNotIn(studio, shown(), needs) } : {}),
     enabled() {
       const world = shown();
       return world !== undefined && (more.may?.(world) ?? true);
@@ -71,9 +75,11 @@ export function worldCommands(studio: Studio): Command[] {
     // Brackets are typed with AltGr on many keyboards, which no command is on.
     make('world.turnLeft', ['Ctrl+ArrowLeft', '['], ({ model }) => turn(model, kTurn), {
       may: turns,
+      needs: 'thing',
     }),
     make('world.turnRight', ['Ctrl+ArrowRight', ']'], ({ model }) => turn(model, -kTurn), {
       may: turns,
+      needs: 'thing',
     }),
     make('world.put', ['Enter'], ({ model }) => putDown(model), {
       may: ({ model }) => model.placing !== null,
@@ -87,9 +93,12 @@ export function worldCommands(studio: Studio): Command[] {
       'world.take',
       ['Delete', 'Backspace'],
       ({ model }) => model.chosen && model.acts?.take(model.chosen),
-      { may: (world) => has(world) && (world.file !== null || !isRobot(world)) },
+      { may: (world) => has(world) && (world.file !== null || !isRobot(world)), needs: 'thing' },
     ),
-    make('world.copy', ['Ctrl+D'], copy, { may: (world) => edits(world) && has(world) }),
+    make('world.copy', ['Ctrl+D'], copy, {
+      may: (world) => edits(world) && has(world),
+      needs: 'thingOfFile',
+    }),
     make('world.undo', ['Ctrl+Z'], ({ file }) => (file ? file.undo() : undoInRun(studio)), {
       may: (world) => (edits(world) ? (world.file?.canUndo ?? false) : touches(world)),
     }),
@@ -129,7 +138,7 @@ export function worldCommands(studio: Studio): Command[] {
     make('world.grid', ['G'], () => toggleOption(studio, 'grid')),
     make('world.picture', ['P'], () => toggleOption(studio, 'picture')),
     make('world.list', ['L'], () => toggleOption(studio, 'list')),
-    make('world.snap', ['S'], () => toggleOption(studio, 'snap'), { may: edits }),
+    make('world.snap', ['S'], () => toggleOption(studio, 'snap'), { may: edits, needs: 'file' }),
     {
       id: 'world.open',
       title: titles['world.open'],
@@ -144,6 +153,7 @@ export function worldCommands(studio: Studio): Command[] {
         (world) => place(world, { what: 'object', kind, at: placeFor(world, 0.2) }),
         {
           may: (world) => (world.model.acts?.may ?? false) && (edits(world) || isObstacle(kind)),
+          needs: isObstacle(kind) ? 'world' : 'file',
         },
       ),
     ),
@@ -157,7 +167,7 @@ export function worldCommands(studio: Studio): Command[] {
             type,
             at: placeFor(world, type === 'carbot' ? 0.25 : 0.08),
           }),
-        { may: edits },
+        { may: edits, needs: 'file' },
       ),
     ),
   ];
@@ -168,6 +178,18 @@ export function worldCommands(studio: Studio): Command[] {
     const at = round > 0 ? (value: number) => Math.round(value / round) * round : tidy;
     return { x: tidy(at(x)), y: tidy(at(y)), angle: 0 };
   }
+}
+
+type Need = 'world' | 'thing' | 'thingOfFile' | 'file';
+
+/** Of what a command needs, what is missing. */
+function whyNotIn(studio: Studio, world: ShownWorld | undefined, needs: Need): string {
+  if (!world) return words.open;
+  const ofFile = needs === 'file' || needs === 'thingOfFile';
+  if (ofFile && !world.file) return words.edit;
+  if (!world.file && studio.past.at !== null) return text.whyNot.looksBack;
+  if (needs === 'file' || needs === 'world') return '';
+  return world.model.chosen ? words.robotStays : words.select;
 }
 
 /** What can be put into a world that runs. */

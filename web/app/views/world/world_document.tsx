@@ -1,7 +1,6 @@
-import { Suspense, useMemo, useRef, useState } from 'react';
+import { Suspense, useMemo, useRef } from 'react';
 import { late } from '../../parts/late';
 import type { Doc, Finding } from '../../../protocol/messages';
-import { useTopic, useWindow, usePart } from '../../hooks';
 import { Blank } from '../../parts/blank';
 import { Button } from '../../parts/button';
 import { text } from '../../text';
@@ -10,10 +9,10 @@ import { FindingNotice } from '../finding_notice';
 import { DiskNotice } from '../script/script_notices';
 import type { ShownWorld } from './desk';
 import { EditTools, RunTools } from './edit_tools';
-import { ModeSwitch, type WorldMode } from './mode_switch';
 import { useWorldOptions } from './options';
 import { ModeNote, RunNotes } from './run_notes';
 import { SpeedBar } from './speed_bar';
+import { useMode } from './use_mode';
 import {
   useBroken,
   useFileStage,
@@ -34,22 +33,8 @@ const ScriptView = late(() => import('../script/script_view'));
 
 /** A world: as it runs, as its file says and is edited, or its text. */
 export default function WorldDocument({ doc }: { doc: Doc }) {
-  const [chosen, choose] = useState<WorldMode | null>(null);
   const runs = useHasScene();
-  const isOurs = useTopic('studio', {})?.project?.world === doc;
-  const state = usePart('clock', {}, (is) => is?.state);
-  const [first] = useState<WorldMode>(() =>
-    isOurs && (state === 'running' || state === 'paused') ? 'live' : 'edit',
-  );
-  const reveal = useWindow((window) => window.reveal);
-  const [asked, setAsked] = useState<typeof reveal>(null);
-  if (reveal !== asked) {
-    setAsked(reveal);
-    // A place in the text is asked for: a finding, something searched.
-    if (reveal?.what === 'doc' && reveal.doc === doc && reveal.at) choose('text');
-  }
-  const mode = chosen ?? first;
-  const modes = <ModeSwitch mode={mode} onChange={choose} />;
+  const { mode, choose, modes } = useMode(doc);
   if (mode === 'text')
     return (
       <div className="world" data-world>

@@ -101,6 +101,8 @@ function useOnDesk(
     const around = place?.closest('[data-world]') ?? place;
     around?.addEventListener('focusin', use);
     around?.addEventListener('pointerdown', use);
+    // Its mode was chosen just now.
+    if (around?.contains(document.activeElement)) use();
     return () => {
       end();
       around?.removeEventListener('focusin', use);

@@ -82,12 +82,15 @@ export function canvasCommands(studio: Studio, acts: CanvasActs): Command[] {
       ({ board }) => askWhy(studio, 'actor', board.actor(board.selected)?.name),
       ({ board }) => board.actor(board.selected) !== undefined,
     ),
-    make(
-      'draw.open',
-      ['O'],
-      (plan) => openSubPlan(studio, plan),
-      (plan) => chosenSubPlan(plan) !== null,
-    ),
+    {
+      ...make(
+        'draw.open',
+        ['O'],
+        (plan) => openSubPlan(studio, plan),
+        (plan) => chosenSubPlan(plan) !== null,
+      ),
+      why: () => drawWords.subPlans.choose,
+    },
     make(
       'draw.extract',
       ['Ctrl+Shift+E'],

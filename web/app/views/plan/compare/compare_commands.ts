@@ -13,8 +13,10 @@ export function compareCommands(studio: Studio): Command[] {
   const comparing = comparingOf(studio);
   const doc = () => studio.window.getState().doc;
   const isShown = () => comparing.doc !== null && comparing.doc === doc();
+  const why = () => (isShown() ? words.none : words.notCompared);
   const steps = (by: 1 | -1) => ({
     group,
+    why,
     enabled: () => isShown() && (comparing.answer?.differences.length ?? 0) > 0,
     run: () => comparing.step(by),
   });
@@ -38,6 +40,7 @@ export function compareCommands(studio: Studio): Command[] {
       title: words.commands.leave,
       group,
       enabled: isShown,
+      why,
       run: () => comparing.leave(),
     },
   ];

@@ -222,6 +222,7 @@ export const text = {
       'run.pause': 'Nothing is running.',
       'tests.run': 'Open a test first (NAME.test.json).',
       'tests.stop': 'No tests are running.',
+      'run.speed': 'Only the simulator and a plan have a clock.',
       'run.step': 'Nothing is paused. Pause first (F8).',
       'run.reset': 'Only a simulation can go back to its start.',
       'run.end': 'The run answers. Stop ends it.',

@@ -206,7 +206,16 @@ test('a key that can do nothing now says why', example, async (studio) => {
     await press('Escape');
     return said.join();
   };
+  // By the list of commands, as by a click: the menu of the clock, which gives the keyboard back.
+  const clock = page.getByRole('button', { name: /Speed of the clock/ });
+  await clock.focus();
+  await command('Speed of the clock…');
+  await focused(page.getByRole('menu'));
+  await press('ArrowDown', 'Enter');
+  await reads(clock, /0\.1×/);
+  await focused(clock);
   assert.equal(await why('Next difference'), 'Compare the plan with another version first.');
+  await page.getByRole('region', { name: /drawn$/ }).focus();
   await command('Layout Script');
   await focused(editor('drive'));
   assert.equal(await why('Breakpoint on this line'), '');

@@ -4,6 +4,7 @@ import { answers } from '../../core/connection';
 import { runStateOf } from '../../core/run_state';
 import { toast } from '../../core/window_state';
 import type { Failed, NodeId } from '../../protocol/messages';
+import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
 import { runRobot } from './run_robot';
 import { clockOf, drives, mayAct, projectOf, robotOf, shownNode } from './looks';
@@ -56,6 +57,18 @@ export function runCommands(studio: Studio): Command[] {
       run: async () => void (await studio.sendInTurn('run.reset', {})),
     },
     {
+      id: 'run.speed',
+      title: `${text.menu.speed}…`,
+      group,
+      enabled: () => clockButton() !== null,
+      run: () =>
+        takeFocus(() => {
+          clockButton()?.focus();
+          clockButton()?.click();
+          return true;
+        }),
+    },
+    {
       id: 'run.end',
       title: titles['run.end'],
       group,
@@ -78,6 +91,9 @@ export function runCommands(studio: Studio): Command[] {
     },
   ];
 }
+
+/** Its menu has the speeds. */
+const clockButton = () => document.querySelector<HTMLElement>('button.clock');
 
 /** For the node whose script is looked at. */
 export function nodeCommands(studio: Studio): Command[] {

@@ -80,7 +80,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     const opened = { model: next, plan };
     if (before.current) carryDocuments(studio, before.current, opened, closed.current);
     noteFirst(studio, next);
-    if (mayTakeFocus(studio)) keepFocus(studio);
+    if (mayTakeFocus(studio)) keepFocus(studio, next);
     before.current = opened;
     keys.set(next, key);
     setMade({ model: next, key });
@@ -372,9 +372,11 @@ function mayTakeFocus({ window: store, wasOpenedHere }: Studio): boolean {
 }
 
 /** Another layout recreates its panels: the focus stays in the document, unless something else has it. */
-function keepFocus(studio: Studio): void {
+function keepFocus(studio: Studio, model: Model): void {
   takeFocus(() => {
     if (document.activeElement !== document.body) return true;
+    // The list of commands has given the keyboard back to what goes with the layout before.
+    noteFirst(studio, model);
     const { doc } = studio.window.getState();
     return doc === null || focusInTab(`doc:${doc}`);
   });

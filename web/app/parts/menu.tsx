@@ -1,5 +1,5 @@
 import { Menu, type MenuItemProps, type MenuProps } from '@mantine/core';
-import { useLayoutEffect, useRef, type ReactNode } from 'react';
+import { useEffect, useRef, type ReactNode } from 'react';
 import { useStudio } from '../hooks';
 import { Kbd } from './kbd';
 import { kStaysInWindow, useOpened } from './use_opened';
@@ -43,11 +43,11 @@ export function StudioMenu({
 /**
  * Has the focus until a key chooses an item. The library has an element of its own for that, between the items,
  * with no role that a menu may contain. The library gives it the focus a moment later: a key that is pressed at
- * once would be for what had it before.
+ * once would be for what had it before. Not while things are laid out: then useOpened() notes what had it.
  */
 function Items({ children, hasField }: { children: ReactNode; hasField: boolean }) {
   const group = useRef<HTMLDivElement>(null);
-  useLayoutEffect(() => {
+  useEffect(() => {
     if (!hasField) group.current?.focus({ preventScroll: true });
   }, [hasField]);
   return (

@@ -8,7 +8,6 @@ import { planWords } from '../live_words';
 const debugging = ['draw.break', 'draw.breakEdit', 'draw.log', 'draw.into', 'draw.script'];
 const editing = [
   'draw.open',
-  'draw.connect',
   'draw.properties',
   'draw.rename',
   'draw.duplicate',

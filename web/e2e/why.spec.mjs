@@ -123,6 +123,8 @@ test(
     const { page, layout, button } = studio;
     await runTo(studio, 'backupCollision');
     await layout('Draw');
+    // It bumped at the upper right: the picture of its camera is not over that.
+    await seen(page.locator('.world__camera[data-low]'));
     await button('Why backupCollision?').click();
     const raised = links(page).filter({ hasText: 'wallTouch raised TouchSensorPressed' });
     await raised.click();

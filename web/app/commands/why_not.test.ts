@@ -42,7 +42,7 @@ test.each([
   const why = { id: 'world.why', title: 'Why?', group: '', within: 'world', run: vi.fn() };
   expect(refuse(own, why, key)).toBe(says);
   expect(own.window.getState().toasts.map((one) => one.text)).toEqual(
-    says ? ['Why?: Select a robot of the run first.'] : [],
+    says ? ['Why? Select a robot of the run first.'] : [],
   );
 });
 

@@ -50,6 +50,11 @@ const kKeysOfPlace = /^(Shift\+)?(.|Delete|Backspace)$/;
 export function refuse(studio: Studio, command: Command, key: string): boolean {
   const isOurs = kOwnKeys.test(key) || (command.within !== undefined && kKeysOfPlace.test(key));
   if (!isOurs || projectOf(studio) === null) return false;
-  toast(studio.window, 'note', `${command.title}: ${whyNot(studio, command)}`);
+  const { title } = command;
+  toast(
+    studio.window,
+    'note',
+    `${title}${title.endsWith('?') ? '' : ':'} ${whyNot(studio, command)}`,
+  );
   return true;
 }

@@ -41,6 +41,18 @@ export function toWorld(view: View, screen: Extent, point: Point): Point {
   };
 }
 
+/** The part of the width, at the right, in which something at that side may cover what is there. */
+const kSide = 0.45;
+/** Nearer to the middle than this part of the height it stays where it is. */
+const kMiddle = 0.05;
+
+/** Whether something at the right is better low than high, for what is at that point of the screen to be seen. */
+export function isBetterLow({ width, height }: Extent, { x, y }: Point, isLow: boolean): boolean {
+  if (!(x > width * (1 - kSide))) return isLow;
+  if (y < height * (0.5 - kMiddle)) return true;
+  return y > height * (0.5 + kMiddle) ? false : isLow;
+}
+
 /** Larger or smaller by a factor; what is under the point stays there. */
 export function zoomed(view: View, screen: Extent, at: Point, factor: number): View {
   const scale = limited(view.scale * factor);

@@ -17,7 +17,16 @@ import { WorldModel } from './model';
 import { snapAngle, snapPoint, tidy } from './snap';
 import { bodies, keyOfObject, keyOfRobot, stageOfScene, type Thing } from './stage';
 import { kTrailPointsMax, Trails } from './trails';
-import { fitted, gridStep, lengthText, panned, toScreen, toWorld, zoomed } from './view';
+import {
+  fitted,
+  gridStep,
+  isBetterLow,
+  lengthText,
+  panned,
+  toScreen,
+  toWorld,
+  zoomed,
+} from './view';
 
 const thing = (kind: Thing['kind'], more: Partial<Thing> = {}): Thing => ({
   key: kind,
@@ -325,4 +334,17 @@ describe('a world that is looked at', () => {
 test('AnglesAreShownFromMinus180To180', () => {
   const shown = [396, -359.5, 180, -180, 0, 725].map((given) => shownDegrees(radians(given)));
   expect(shown.map((one) => Math.round(one * 10) / 10)).toEqual([36, 0.5, 180, 180, 0, 5]);
+});
+
+test('a picture at the right is where the robot is not, and does not jump to and fro', () => {
+  const screen = { width: 400, height: 300 };
+  const far = { x: 100, y: 20 };
+  expect(isBetterLow(screen, far, false)).toBe(false);
+  expect(isBetterLow(screen, far, true)).toBe(true);
+  expect(isBetterLow(screen, { x: 300, y: 20 }, false)).toBe(true);
+  expect(isBetterLow(screen, { x: 300, y: 280 }, true)).toBe(false);
+  // About the middle it stays.
+  for (const isLow of [true, false])
+    expect(isBetterLow(screen, { x: 300, y: 150 }, isLow)).toBe(isLow);
+  expect(isBetterLow(screen, { x: NaN, y: NaN }, false)).toBe(false);
 });

@@ -72,7 +72,7 @@ export function WorldStage({
       </div>
       {live && options.picture && sees ? (
         <Suspense>
-          <CameraPicture model={model} />
+          <CameraPicture model={model} flat={!solid} />
         </Suspense>
       ) : null}
       {menu ? (

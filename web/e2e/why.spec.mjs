@@ -56,9 +56,9 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   // At 80 s a plank falls before the robot, at 82.5 s it bumps into it and is about to back up.
   await runTo(studio, 'backupCollision');
   await toNext(studio, 'findWallAngle');
-  // By keys: the robot in the world.
+  // By keys: the only robot in the world.
   await world(page).focus();
-  await press('Shift+N', 'w');
+  await press('w');
   const wheels = await answered(page, /^Why do the wheels of carbot turn as they do\? now/);
   assert.match(wheels[0] ?? '', /the script of drive called drive\./);
   await focused(links(page).first());

@@ -124,8 +124,8 @@ export function worldCommands(studio: Studio): Command[] {
       ({ model }) => model.follow(model.follows === model.selected ? null : model.selected),
       { may: isRobot },
     ),
-    make('world.why', ['W'], ({ model }) => void askWhy(studio, 'motor', model.chosen?.name), {
-      may: (world) => world.file === null && isRobot(world),
+    make('world.why', ['W'], ({ model }) => void askWhy(studio, 'motor', askedOf(model)), {
+      may: ({ file, model }) => file === null && askedOf(model) !== undefined,
     }),
     make('world.solid', ['3'], () => toggleOption(studio, 'solid')),
     make('world.rays', ['R'], () => toggleOption(studio, 'rays')),
@@ -195,6 +195,13 @@ function whyNotIn(studio: Studio, world: ShownWorld | undefined, needs: Need): s
 /** What can be put into a world that runs. */
 export function isObstacle(kind: string): boolean {
   return kind === 'wall' || kind === 'box' || kind === 'cylinder';
+}
+
+/** The selected robot; where nothing is selected, the only one. */
+function askedOf({ chosen, stage }: WorldModel): string | undefined {
+  if (chosen) return chosen.kind === 'robot' ? chosen.name : undefined;
+  const robots = stage.things.filter(({ kind }) => kind === 'robot');
+  return robots.length === 1 ? robots[0]?.name : undefined;
 }
 
 function isRobot({ model }: ShownWorld): boolean {

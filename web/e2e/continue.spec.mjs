@@ -113,6 +113,15 @@ test('while looking back nothing that changes the run is offered', wall, async (
   assert.ok(await button('Upload').first().isDisabled());
   await press('Alt+Shift+u');
   await seen(page.getByText(/^Upload to the node: You are looking back/));
+  // Nor is a value changed, which the key of its row says.
+  await page.getByRole('tab', { name: 'Variables' }).click();
+  await page.getByRole('searchbox', { name: 'Find in all nodes' }).fill('patience');
+  await page
+    .getByRole('listitem')
+    .filter({ hasText: /^patience/ })
+    .focus();
+  await press('Enter');
+  await seen(page.getByText(/^Change .*patience: You are looking back/));
 });
 
 test('without its server no instant is claimed that is not shown', wall, async (studio) => {

@@ -2,7 +2,9 @@ import { IconChevronDown, IconChevronRight } from '@tabler/icons-react';
 import { useEffect, useEffectEvent, useRef, useState } from 'react';
 import type { NumberForm } from '../../../core/numbers';
 import { pickName, type Pick } from '../../../core/picks';
-import { useMayAct } from '../../past_hooks';
+import { toast } from '../../../core/window_state';
+import { useDrives, useStudio } from '../../hooks';
+import { usePastTime } from '../../past_hooks';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
 import { PickButtons } from './pick_buttons';
@@ -31,14 +33,20 @@ export function VariableLine({
   onToggle?: (() => void) | undefined;
   inWatch?: boolean;
 }) {
-  const drives = useMayAct();
+  const studio = useStudio();
+  const drives = useDrives();
+  const past = usePastTime();
   const row = useRef<HTMLDivElement>(null);
   const [edits, setEdits] = useState(false);
   const { variable } = place;
-  const may = drives && variable.writable;
+  const why = past !== null ? text.whyNot.looksBack : drives ? '' : text.whyNot.viewOnly;
+  const edit = () =>
+    why === ''
+      ? setEdits(true)
+      : toast(studio.window, 'note', `${words.change(pickName(pick))}: ${why}`);
   // Below its unfolded array; elsewhere an element is by itself.
   const isElement = name.startsWith('[');
-  useEditKey(row, may, () => setEdits(true));
+  useEditKey(row, variable.writable, edit);
   return (
     <div
       className="variable"
@@ -65,9 +73,10 @@ export function VariableLine({
           data-inset
           data-edit
           tabIndex={-1}
-          disabled={!may}
-          title={(may ? words.change : words.valueOf)(pickName(pick))}
-          onClick={() => setEdits(true)}
+          disabled={!variable.writable}
+          aria-disabled={why !== '' || undefined}
+          title={(variable.writable ? words.change : words.valueOf)(pickName(pick))}
+          onClick={edit}
         >
           {isElement ? <LiveBar place={place} /> : null}
           <LiveValue place={place} form={form} row={row} />

@@ -355,6 +355,12 @@ test('what a plan does is seen on it', wall, async (studio) => {
   await reads(page.locator('.pactor.is-active'), /\d\.\d s/);
   await seen(page.locator('.psup.is-watching').filter({ hasText: 'escape' }));
   await page.locator('.parrow--taken').waitFor({ state: 'attached' });
+  // Who pauses it by hand goes on with what is looked at.
+  await studio.tab(/^hall\.world/).click();
+  await press('F8');
+  await seen(studio.tab(/^WallFollow/).getByRole('img', { name: /paused/ }));
+  await seen(page.getByRole('tab', { name: /^hall\.world/, selected: true }));
+  await studio.tab(/^WallFollow/).click();
   await press('Shift+F5');
   await gone(page.locator('.pactor.is-active'));
 });

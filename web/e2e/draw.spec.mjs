@@ -201,6 +201,15 @@ test('a plan is drawn and corrected with keys alone', empty, async (studio) => {
   await goToPlan();
   await press('Enter');
   await focused('its input', page.getByRole('combobox', { name: 'seconds' }));
+  // The start is found as every element is, and its arrow is drawn as theirs are.
+  await goToPlan();
+  await press('/');
+  await type('start');
+  await press('Enter');
+  await focused('the start', element(page, 'Start, leads to wait'));
+  await press('c');
+  await seen(page.getByText('Start: connect to…'));
+  await press('Escape');
   await press('Control+s');
   await until('it is saved', () => {
     const { actors } = JSON.parse(readFileSync(join(place, 'P.plan.json'), 'utf8'));

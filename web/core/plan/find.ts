@@ -3,7 +3,7 @@
 import { supervisorKey } from './arrows';
 import { shownFormula } from './edit';
 import { pillKey } from './board';
-import { supervisorsOf, type Actor, type PlanModel, type Supervisor } from './model';
+import { kStart, supervisorsOf, type Actor, type PlanModel, type Supervisor } from './model';
 
 export interface Hit {
   key: string;
@@ -15,10 +15,11 @@ export interface Hit {
 /** More are not listed. */
 export const kHitsMax = 50;
 
-export function findInPlan(model: PlanModel, typed: string): Hit[] {
+/** start: how the start is called on the screen. */
+export function findInPlan(model: PlanModel, typed: string, start: string): Hit[] {
   const wanted = typed.trim().toLowerCase();
   if (wanted === '') return [];
-  const ranked = hitsOf(model)
+  const ranked = hitsOf(model, start)
     .map((hit) => ({ hit, rank: rankOf(hit, wanted) }))
     .filter(({ rank }) => rank < kNoRank)
     .sort((a, b) => a.rank - b.rank);
@@ -44,8 +45,14 @@ function rankOf({ name, about, inside }: Place, wanted: string): number {
   return inside.some((one) => has(one, wanted)) ? kInside : kNoRank;
 }
 
-function hitsOf(model: PlanModel): Place[] {
+function hitsOf(model: PlanModel, start: string): Place[] {
   return [
+    {
+      key: kStart,
+      name: start,
+      about: '',
+      inside: model.first === null ? [] : [`→ ${model.first}`],
+    },
     ...model.actors.map((one) => ({ ...placeOf(one), key: one.name })),
     ...supervisorsOf(model).map((one) => ({ ...placeOf(one), key: supervisorKey(one) })),
     ...model.variables.map(({ name, type }) => ({

@@ -14,7 +14,7 @@ export function FindBar(props: {
   const list = useId();
   const [typed, type] = useState('');
   const [at, move] = useState(0);
-  const hits = findInPlan(board.model, typed);
+  const hits = findInPlan(board.model, typed, words.start);
   const chosen = hits[Math.min(at, hits.length - 1)];
   const onFound = (key: string) => {
     onClose();

@@ -52,6 +52,8 @@ plan::Findings find_shadowed(const std::vector<plan::Plan>& plans, const plan::L
                 continue;
             }
             for (const plan::Toolbox* earlier : before) {
+                // Nobody who draws a plan can rename these, and what they share means the same.
+                if (earlier->file.empty() && toolbox->file.empty()) continue;
                 const std::vector<std::string> names = taken(*earlier, *toolbox);
                 if (names.empty()) continue;
                 findings.push_back(

@@ -9,7 +9,8 @@
 
 namespace vagus::toolbox {
 
-// A warning for each toolbox of a plan's list that has such templates, at its line.
+// A warning for each toolbox of a plan's list that has such templates, at its line; not where both
+// toolboxes are built in.
 plan::Findings find_shadowed(const std::vector<plan::Plan>& plans, const plan::Library& library);
 
 }  // namespace vagus::toolbox

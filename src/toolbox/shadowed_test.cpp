@@ -18,6 +18,7 @@ plan::Library library() {
                            actor("Jump", 9),
                            {.name = "Forward", .kind = plan::Kind::Supervisor, .line = 12}},
              .file = "mine.toolbox.json"});
+    all.add({.name = "carbot", .templates = {actor("Turn")}});
     return all;
 }
 
@@ -44,6 +45,12 @@ TEST(Shadowed, WhatAnEarlierToolboxTakesAwayIsNamedWithBothPlaces) {
 TEST(Shadowed, AToolboxThatIsListedAloneLosesNothing) {
     EXPECT_TRUE(found({{"mine", {3, 5}}}).empty());
     EXPECT_TRUE(found({{"mine", {3, 5}}, {"nobodys", {4, 5}}, {"mine", {5, 5}}}).empty());
+}
+
+// A plan of a beginner who takes what the palette offers first has both.
+TEST(Shadowed, OfTwoToolboxesThatAreBuiltInNothingIsSaid) {
+    EXPECT_TRUE(found({{"drive", {3, 5}}, {"carbot", {4, 5}}}).empty());
+    EXPECT_EQ(found({{"carbot", {3, 5}}, {"mine", {4, 5}}}).size(), 1u);
 }
 
 }  // namespace

@@ -151,6 +151,16 @@ test('a run, and looking back at it', { words: wall, ...small }, async (studio) 
   await command('20 ms back');
   await seen(page.getByRole('region', { name: 'Looking back' }));
   await fits(page, 'the past');
+  await layout('Present');
+  await seen(page.getByRole('button', { name: /^Why / }));
+  await fits(page, 'the past, presented');
+  // A plan that is tried comes in front of the panel that shares its place.
+  await command('Show Timeline');
+  await gone(drawing(page));
+  await command('Try the plan by hand');
+  await seen(page.getByRole('region', { name: 'Try' }));
+  await focused(page.getByRole('region', { name: 'Try' }));
+  await fits(page, 'tried');
 });
 
 test(

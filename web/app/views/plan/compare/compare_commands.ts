@@ -26,6 +26,7 @@ export function compareCommands(studio: Studio): Command[] {
       title: words.commands.compare,
       group,
       enabled: () => kindOf(doc() ?? '') === 'plan',
+      why: () => words.noPlan,
       run: () => comparing.open(doc()),
     },
     { id: 'view.nextDifference', title: words.commands.next, keys: ['F7'], ...steps(1) },

@@ -29,6 +29,7 @@ export const compareWords = {
   strip: (name: string) => `Compared with ${name}`,
   waits: 'The versions are compared…',
   none: 'No difference.',
+  noPlan: 'Open a plan first.',
   notCompared: 'Compare the plan with another version first.',
   kinds: { added: 'added', changed: 'changed', removed: 'removed', reordered: 'in another order' },
   signs: { added: '+', changed: '≠', removed: '−' },

@@ -5,6 +5,7 @@ import { supervisorsOf } from '../../../../core/plan/model';
 import { tryingOf, type Option, type Trying } from '../../../../core/plan/trying';
 import type { Command } from '../../../../core/registry';
 import type { Studio } from '../../../../core/studio';
+import { revealDoc } from '../../../../core/window_state';
 import { kindOf } from '../../../documents';
 import { useChanges, useStudio } from '../../../hooks';
 import { text } from '../../../text';
@@ -19,6 +20,7 @@ export function tryCommands(studio: Studio): Command[] {
       title: words.command,
       group: text.groups.draw,
       enabled: () => kindOf(doc()) === 'plan',
+      why: () => words.noPlan,
       run: () => tryPlan(studio, doc()),
     },
   ];
@@ -29,6 +31,8 @@ export function tryPlan(studio: Studio, doc: Doc): void {
   studio.past.back();
   const trying = tryingOf(studio);
   trying.start(doc);
+  // In a small window a panel may be in front of it.
+  revealDoc(studio.window, doc, null, false);
   hearDigits(trying);
 }
 

@@ -2,6 +2,7 @@
 
 export const tryWords = {
   command: 'Try the plan by hand',
+  noPlan: 'Open a plan first.',
   button: 'Try',
   tip: 'Runs the plan without a robot: you choose how each actor ends',
   label: 'Try',

@@ -67,7 +67,7 @@ export const layoutPlans: Record<LayoutName, Split> = {
           { is: 'documents', takes: all, opens: ['script'] },
           {
             is: 'panels',
-            panels: ['problems', 'search', 'plots', 'console'],
+            panels: ['problems', 'search', 'timeline', 'plots', 'console'],
             size: 104,
             wide: 240,
             narrow: 88,

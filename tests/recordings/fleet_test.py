@@ -395,7 +395,7 @@ class FleetRecordings(unittest.TestCase):
     def test_a_fleet_is_no_test_of_a_plan(self):
         self.record_alarm(1)
         told = run_vagus("test", "new", self.file, self.folder / "new.test.json", status=2)
-        self.assertIn("is of a world in which 4 robots have projects of their own; a test is of one plan and its robot", told)
+        self.assertIn("is of a world in which 4 robots have projects of their own; a test is of one robot, with a plan or without", told)
 
 
 if __name__ == "__main__":

@@ -207,7 +207,7 @@ class TurningPoint(unittest.TestCase):
         self.record_world(1)
         self.refused("contact >=", 'the condition "contact >=": expected a number')
         self.refused("conatct > 1", 'the condition "conatct > 1": ')
-        self.refused("actor == 'drive'", "the condition \"actor == 'drive'\": the plan has no actor \"drive\"; there is none")
+        self.refused("actor == 'drive'", "the condition \"actor == 'drive'\": \"actor\" is of a plan, and there is none")
         self.refused("node('thymio-II', 'speed') > 0", "the node \"thymio-II\" has no variable \"speed\"")
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 0)
         self.refused("contact > 1", "expected a whole number from 1 to 1000", "--tries", 1001)

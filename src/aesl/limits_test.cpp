@@ -75,6 +75,9 @@ TEST(Limits, ErrorsReported) {
     std::string names;
     for (int i = 0; i < 30000; ++i) names += "call name" + std::to_string(i) + "()\n";
     EXPECT_EQ(compile_here(names).errors.size(), kErrorsMax);
+    // One too many where a name is missing: nothing behind the end of the text is looked at.
+    EXPECT_EQ(compile_here(repeated(line, kErrorsMax) + "var\nvar id2\n").errors.size(),
+              kErrorsMax);
 }
 
 TEST(Limits, WarningsReported) {

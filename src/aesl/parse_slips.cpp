@@ -277,9 +277,11 @@ void Parser::report_no_name(std::string_view keyword) {
     const std::string other = "my_" + std::string(tree_.text(position_));
     syntax_error(Diag::KeywordAsName, {found(), keyword, other},
                  {.fix = replacing(mark(position_), other)});
-    // The rest of the line was meant as the declaration.
+    // The rest of the line was meant as the declaration. Nothing is left of the text where that was
+    // one error too many.
     const TokenId name = position_;
-    const bool has_more = !is_first_of_line(name) && !is_first_of_line(name + 1);
+    const bool has_more =
+        !at(TokenKind::EndOfText) && !is_first_of_line(name) && !is_first_of_line(name + 1);
     if (has_more) advance();
     while (has_more && !at(TokenKind::EndOfText) && !is_first_of_line(position_)) advance();
 }

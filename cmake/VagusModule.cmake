@@ -38,6 +38,13 @@ if(VAGUS_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# g++ collects its garbage each time its memory has doubled, a tenth of its time; most bundles end below this many kB.
+# Two at once need 3.5 GB then.
+cmake_host_system_information(RESULT VAGUS_MEMORY_MB QUERY TOTAL_PHYSICAL_MEMORY)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND VAGUS_MEMORY_MB GREATER 7000)
+  add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:SHELL:--param ggc-min-heapsize=1048576>")
+endif()
+
 # vagus_bundle(OUT NAME source…): the sources of each folder in files that include some of them each, so that a header is
 # read and a template made once for all. Names in anonymous namespaces are then shared: a second one is an error, and
 # usually a duplicate. What is given options of its own, generated, or listed in ALONE is compiled alone. Folders of a

@@ -19,11 +19,6 @@ namespace vagus::trial {
 
 namespace {
 
-std::string text_at(const JsonValue& json, std::string_view key) {
-    const JsonValue* const value = json.find(key);
-    return value == nullptr ? "" : value->text;
-}
-
 // What the trace says, of the outermost plan.
 struct Told {
     struct Came {
@@ -35,19 +30,19 @@ struct Told {
     double end = 0;
 
     void line(const JsonValue& json) {
-        if (text_at(json, "plan").find('/') != std::string::npos) return;
+        if (text_in(json, "plan").find('/') != std::string::npos) return;
         const JsonValue* const t = json.find("t");
         if (t != nullptr) end = t->number;
-        const std::string kind = text_at(json, "kind");
+        const std::string kind = text_in(json, "kind");
         if (kind == "actor-start") {
-            const std::string actor = text_at(json, "actor");
+            const std::string actor = text_in(json, "actor");
             if (std::ranges::find(came, actor, &Came::actor) == came.end()) {
                 came.push_back({actor, end});
             }
-        } else if (kind == "event" && text_at(json, "target") == "@terminate") {
-            by = text_at(json, "supervisor");
+        } else if (kind == "event" && text_in(json, "target") == "@terminate") {
+            by = text_in(json, "supervisor");
         } else if (kind == "plan-end") {
-            ends = text_at(json, "result");
+            ends = text_in(json, "result");
         }
     }
 };

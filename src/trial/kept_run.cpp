@@ -65,15 +65,16 @@ Result<KeptRun> keep_run(const mcap::Reader& reader, const KeptPlace& place) {
         if (came) came->as_drafted = false;
     }
     if (came && came->as_drafted && came->untouched) return KeptRun{std::move(untouched)};
-    if (untouched.was_set) {
-        if (auto kept = keep_as_set(reader, place)) return std::move(*kept);
-        came = tried(untouched, place);  // the scratch file is of another run by now
-    }
+    std::optional<KeptRun> other;
     if (came && !came->as_drafted) {
         // An Error: it came to no actor, so there is nothing to expect of it.
         auto again = draft_again(place.scratch, reader.name(), {.untouched = came->untouched});
-        if (again.ok()) return KeptRun{std::move(again.value()), true};
+        if (again.ok()) other = KeptRun{std::move(again.value()), true};
     }
+    if (untouched.was_set) {
+        if (auto kept = keep_as_set(reader, place)) return std::move(*kept);
+    }
+    if (other) return std::move(*other);
     return KeptRun{TRY(draft_test(reader))};
 }
 

@@ -343,7 +343,7 @@ test('a variable of then is set for the run from there', wall, async (studio) =>
   await notice.getByRole('button', { name: 'Keep 30' }).click();
   await gone(notice);
   await set();
-  // searchFirstWall drives as far as it gets; its supervisor reads the variable each time anew.
+  // searchFirstWall drives as far as it gets; its supervisor reads the variable before each check.
   assert.doesNotMatch(await notice.innerText(), /read walldist/);
   await look(studio, 'variable-then');
   await notice.getByRole('button', { name: 'Run from here' }).click();

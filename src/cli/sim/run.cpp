@@ -452,13 +452,10 @@ Status check_fleet(const SimRunOptions& options) {
 
 Result<std::unique_ptr<embed::RobotsRun>> open_robots(const SimRunOptions& options) {
     session::SimOptions made{{}, options.compile, !options.trace.empty()};
+    made.world = TRY(embed::world_options({.poses = options.poses, .chaos = options.chaos}));
     made.world.seed = options.seed;
     made.world.threads = options.threads;
-    for (const std::string& pose : options.poses) {
-        made.world.starts.push_back(TRY(embed::parse_pose(pose)));
-    }
     made.world.sd_folder = options.sd_folder;
-    if (!options.chaos.empty()) made.world.chaos = TRY(embed::read_chaos_words(options.chaos));
     if (!options.listen.empty()) made.guests = TRY(session::safe_stop_around(options.world, {}));
     TRY(check_fleet(options));
     auto door = TRY(door_to_fleet(options));

@@ -1,4 +1,3 @@
-import { IconAlertTriangle, IconArrowsExchange } from '@tabler/icons-react';
 import { useEffect, useRef, useState, type ReactNode } from 'react';
 import type { Doc, Topics } from '../../../protocol/messages';
 import { ChangeQuestion, type ChangeAnswer } from '../../../core/plan/change';
@@ -6,10 +5,10 @@ import { partOf } from '../../../core/paths';
 import { usePastTime } from '../../past_hooks';
 import { useDrives, usePart, useStudio, useTopic } from '../../hooks';
 import { Button } from '../../parts/button';
-import { kStroke } from '../../parts/icons';
 import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
 import { PlanChangeThen } from './plan_change_then';
+import { PlanNotice } from './plan_notice';
 
 const words = planWords.change;
 
@@ -72,22 +71,17 @@ export function PlanChange({ doc }: { doc: Doc }) {
 
 function Line(props: { good: boolean; what: string; reasons: readonly string[]; end: ReactNode }) {
   const { good, what, reasons, end } = props;
-  const Icon = good ? IconArrowsExchange : IconAlertTriangle;
   return (
-    <div className="notice planchange" role="status">
-      <Icon className="icon" size={14} stroke={kStroke} aria-hidden />
-      <div className="grow">
-        {what}
-        {reasons.length === 0 ? null : (
-          <ul className="planchange__why">
-            {reasons.map((reason, index) => (
-              <li key={index}>{reason}</li>
-            ))}
-          </ul>
-        )}
-      </div>
-      {end}
-    </div>
+    <PlanNotice good={good} end={end}>
+      {what}
+      {reasons.length === 0 ? null : (
+        <ul className="planchange__why">
+          {reasons.map((reason, index) => (
+            <li key={index}>{reason}</li>
+          ))}
+        </ul>
+      )}
+    </PlanNotice>
   );
 }
 

@@ -1,4 +1,3 @@
-import { IconArrowsExchange } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import type { Doc, PlanDifference, PlanLevel } from '../../../protocol/messages';
 import { kAskEveryMs } from '../../../core/plan/change';
@@ -7,10 +6,10 @@ import { isPlace } from '../../../core/plan/differences';
 import { valueOf } from '../../../core/plan_view';
 import { useChanges, usePart, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
-import { kStroke } from '../../parts/icons';
 import { RunFromHere } from '../run_from_here';
 import { ShowDifferences } from './compare/show_differences';
 import { planWords } from './live_words';
+import { PlanNotice } from './plan_notice';
 import { RunFromStart } from './run_from_start';
 
 const words = planWords.change;
@@ -27,17 +26,19 @@ export function PlanChangeThen({ doc }: { doc: Doc }) {
   // Those notices have the button.
   const isSet = past.settings.of(levels).length > 0;
   return (
-    <div className="notice planchange" role="status">
-      <IconArrowsExchange className="icon" size={14} stroke={kStroke} aria-hidden />
-      <div className="grow">
-        {words.then}
-        {levels.map((level) => (
-          <Kept key={level.path} level={level} differences={differences} />
-        ))}
-      </div>
-      <ShowDifferences doc={doc} from="then" />
-      {isSet ? null : <RunFromHere />}
-    </div>
+    <PlanNotice
+      end={
+        <>
+          <ShowDifferences doc={doc} from="then" />
+          {isSet ? null : <RunFromHere />}
+        </>
+      }
+    >
+      {words.then}
+      {levels.map((level) => (
+        <Kept key={level.path} level={level} differences={differences} />
+      ))}
+    </PlanNotice>
   );
 }
 

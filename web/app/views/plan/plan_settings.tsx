@@ -1,13 +1,12 @@
-import { IconArrowsExchange } from '@tabler/icons-react';
 import type { Doc, PlanLevel } from '../../../protocol/messages';
 import { inputsAhead, namedIn } from '../../../core/plan/ahead';
 import { valueOf } from '../../../core/plan_view';
 import { useChanges, useStudio } from '../../hooks';
 import { Button } from '../../parts/button';
-import { kStroke } from '../../parts/icons';
 import { RunFromHere } from '../run_from_here';
 import { planWords } from './live_words';
 import { usePlanDesk } from './plan_desk';
+import { PlanNotice } from './plan_notice';
 import { RunFromStart } from './run_from_start';
 
 const words = planWords.change;
@@ -26,23 +25,19 @@ export function PlanSettings({ doc }: { doc: Doc }) {
   );
   if (set.length === 0) return null;
   return (
-    <div className="notice planchange" role="status">
-      <IconArrowsExchange className="icon" size={14} stroke={kStroke} aria-hidden />
-      <div className="grow">
-        {set.map(({ path, name, value, to }) => (
-          <p key={`${path} ${name}`} className="planchange__kept">
-            {words.sets(name, valueOf(to), valueOf(value))}
-            <Button small kind="plain" onClick={() => past.settings.set(path, name, undefined)}>
-              {words.asThen(valueOf(value))}
-            </Button>
-          </p>
-        ))}
-        {levels.map((level) => (
-          <Taken key={level.path} level={level} />
-        ))}
-      </div>
-      <RunFromHere />
-    </div>
+    <PlanNotice end={<RunFromHere />}>
+      {set.map(({ path, name, value, to }) => (
+        <p key={`${path} ${name}`} className="planchange__kept">
+          {words.sets(name, valueOf(to), valueOf(value))}
+          <Button small kind="plain" onClick={() => past.settings.set(path, name, undefined)}>
+            {words.asThen(valueOf(value))}
+          </Button>
+        </p>
+      ))}
+      {levels.map((level) => (
+        <Taken key={level.path} level={level} />
+      ))}
+    </PlanNotice>
   );
 }
 

@@ -36,7 +36,8 @@ public:
             project = TRY(aesl::parse_project(text, about_.project));
         }
         names_.emplace(project.common, about_.project);
-        past_ = TRY(PastBus::read(reader, std::move(project), until_.value_or(Time::max())));
+        past_ = TRY(PastBus::read(reader, std::move(project), about_.project,
+                                  until_.value_or(Time::max())));
         ended_by_ = past_->ended_by();
         cut_ = cut_ || past_->is_cut();
         if (about_.plan.empty()) return Status::done();

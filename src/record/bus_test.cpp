@@ -116,6 +116,24 @@ TEST_F(BusInMemory, FramesAreReadAsTheyWereAndEventsKnowWhoSentThem) {
     EXPECT_EQ(events.at(3).event.name, "9");
 }
 
+// Each event is one of the script that its node had then.
+TEST_F(BusInMemory, ANodeThatIsLoadedAgainHasAnotherScriptFromThenOn) {
+    const std::string files[] = {"a.aesl", "b.aesl"};
+    for (size_t i = 0; i < 2; ++i) {
+        const std::string text = "<network><node nodeId=\"3\" name=\"rover\">" +
+                                 std::string("emit go ") + std::to_string(i) + "</node></network>";
+        recorder.input_at(Time(1ms + i * 2ms), ScriptLoaded{3, files[i], text});
+    }
+    bus.described(0ms, rover());
+    const auto was = past();
+    EXPECT_EQ(was->script_of(3, 0ms).script, nullptr);  // the project has none
+    EXPECT_EQ(was->script_of(3, 2ms).file, "a.aesl");
+    ASSERT_NE(was->script_of(3, 3ms).script, nullptr);
+    EXPECT_EQ(was->script_of(3, 3ms).script->source, "emit go 1");
+    EXPECT_FALSE(was->script_of(3, 3ms).is_attached);
+    EXPECT_EQ(was->script_of(4, 3ms).script, nullptr);
+}
+
 TEST(BusMessages, BytesThatAreNoFrameAreNone) {
     std::string whole;
     (void)format_frame(whole, {1, 0, frame_of(3, 1, {5})});

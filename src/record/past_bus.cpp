@@ -36,8 +36,9 @@ bool is_near(Time a, Time b) {
 // ---- reading ----
 
 Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl::Project project,
-                                               Time until) {
+                                               const std::string& file, Time until) {
     auto past = std::make_unique<PastBus>();
+    past->file_ = file;
     past->project_ = std::move(project);
     mcap::Cursor cursor(reader);
     while (const auto message = cursor.next()) {
@@ -47,7 +48,7 @@ Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl:
         if (channel->topic == kTraceTopic) {
             past->see_trace(at, message->data);
         } else if (channel->topic == kInputTopic) {
-            TRY(past->see_input(at, message->data, reader.name()));
+            TRY(past->see_input(at, message->data, reader));
         } else if (channel->topic == kFramesTopic && at <= until) {
             past->see_frame(at, message->data);
         } else if (channel->topic == kEventsTopic && at <= until) {
@@ -70,12 +71,14 @@ void PastBus::see_trace(Time at, std::string_view text) {
     lines_.push_back({at, ++places_, std::string(text)});
 }
 
-Status PastBus::see_input(Time at, std::string_view text, const std::string& name) {
-    Input input = TRY(read_input(text, at, name));
+Status PastBus::see_input(Time at, std::string_view text, const mcap::Reader& reader) {
+    Input input = TRY(read_input(text, at, reader.name()));
     if (const auto* const aborted = std::get_if<Aborted>(&input.what)) ended_by_ = aborted->by;
     const auto* const asked = std::get_if<run::Request>(&input.what);
     if (asked != nullptr && std::holds_alternative<run::Abort>(*asked)) ended_by_ = "";
-    if (const auto* const end = std::get_if<RecordingEnds>(&input.what)) {
+    if (const auto* const loaded = std::get_if<ScriptLoaded>(&input.what)) {
+        see_script(at, *loaded, reader);
+    } else if (const auto* const end = std::get_if<RecordingEnds>(&input.what)) {
         cut_ = !end->why.empty();
     } else {
         items_.push_back({at, ++places_, std::move(input.what)});
@@ -119,15 +122,30 @@ std::string PastBus::name_of(uint16_t node) const {
     return shared ? name + " (" + number + ")" : name;
 }
 
-const aesl::Script* PastBus::script_of(uint16_t node) const {
+// A file that is none, or has mistakes, was not what the node was loaded with.
+void PastBus::see_script(Time at, const ScriptLoaded& loaded, const mcap::Reader& reader) {
+    auto project = aesl::parse_project(loaded.text, loaded.file);
+    if (!project.ok()) return;
+    const mcap::Attachment* const file = reader.attachment(file_);
+    const bool same = loaded.file == file_ && file != nullptr && file->data == loaded.text;
+    loaded_.push_back({at, loaded.node, loaded.file, std::move(project.value()), same});
+}
+
+PastBus::ScriptThen PastBus::script_of(uint16_t node, Time at) const {
+    const auto last = std::ranges::find_if(loaded_ | std::views::reverse, [&](const Loaded& one) {
+        return one.node == node && one.at <= at;
+    });
+    const bool is_loaded = last != loaded_.rend();
+    const aesl::Project& project = is_loaded ? last->project : project_;
     std::vector<aesl::NodeName> nodes;
     for (const auto& [id, name] : names_) nodes.push_back({name, id});
-    const std::vector<int> scripts = aesl::scripts_for(project_, nodes);
+    const std::vector<int> scripts = aesl::scripts_for(project, nodes);
     for (size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i].id != node || scripts[i] < 0) continue;
-        return &project_.scripts[static_cast<size_t>(scripts[i])];
+        return {&project.scripts[static_cast<size_t>(scripts[i])], &project.common,
+                is_loaded ? last->file : file_, !is_loaded || last->is_attached};
     }
-    return nullptr;
+    return {};
 }
 
 // ---- the run ----

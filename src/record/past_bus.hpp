@@ -45,9 +45,10 @@ public:
         size_t lines = 0;    // that the trace had then
     };
 
-    // The project gives events their names. Events of later than `until` are left out. The Error is
-    // of an input that cannot be read.
+    // The project, of that file, gives events their names. Events of later than `until` are left
+    // out. The Error is of an input that cannot be read.
     static Result<std::unique_ptr<PastBus>> read(const mcap::Reader& reader, aesl::Project project,
+                                                 const std::string& file = "",
                                                  Time until = Time::max());
 
     // By the number of the frame.
@@ -57,8 +58,15 @@ public:
     // "drive", or "node 3" where nobody knows; "drive (node 3)" where another has that name.
     std::string name_of(uint16_t node) const;
     const aesl::Project& project() const { return project_; }
-    // That of the project for a node; nullptr without one.
-    const aesl::Script* script_of(uint16_t node) const;
+    // What a node had at an instant.
+    struct ScriptThen {
+        const aesl::Script* script = nullptr;             // nullptr: nobody knows
+        const aesl::CommonDefinitions* common = nullptr;  // that it was compiled with
+        std::string file = {};
+        bool is_attached = false;  // as it was when the recording began
+    };
+    // What it was loaded with by then, as far as that was recorded, or that of the project.
+    ScriptThen script_of(uint16_t node, Time at) const;
     // It was ended before it had begun, or nothing of it was written.
     bool never_began() const { return lines_.empty(); }
     // The run went on when its recording ended: nothing is known of what came then.
@@ -110,10 +118,11 @@ private:
         uint32_t frame = 0;
     };
     void see_trace(Time at, std::string_view text);
-    Status see_input(Time at, std::string_view text, const std::string& name);
+    Status see_input(Time at, std::string_view text, const mcap::Reader& reader);
     void see_frame(Time at, std::string_view data);
     void see_event(Time at, std::string_view text);
     void see_node(std::string_view text);
+    void see_script(Time at, const ScriptLoaded& loaded, const mcap::Reader& reader);
     const Line* next_line() const;
     bool comes_before_line(const Item& item) const;
     bool comes_before_all(const Item& item) const;
@@ -122,6 +131,7 @@ private:
     void skip_late(std::vector<Told>& told);
 
     aesl::Project project_;
+    std::string file_;  // of it
     std::optional<std::string> ended_by_;
     bool cut_ = false;
     std::function<void(const PlanFiles&)> saved_ = [](const PlanFiles&) {};
@@ -132,6 +142,14 @@ private:
     std::map<uint32_t, Event> events_;
     std::map<uint16_t, std::string> names_;  // of nodes, as they described themselves
     std::map<uint16_t, std::string> labels_;
+    struct Loaded {
+        Time at{};
+        uint16_t node = 0;
+        std::string file;
+        aesl::Project project;
+        bool is_attached = false;
+    };
+    std::vector<Loaded> loaded_;  // the last one of a node counts
     size_t places_ = 0;
     size_t item_ = 0;  // the next
     size_t line_ = 0;

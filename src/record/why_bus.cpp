@@ -25,11 +25,11 @@ void Walk::frame_of_bus_node(uint32_t number, const BusCauses::Frame& frame) {
     const PastBus& past = *rerun_.past_bus();
     const std::string node = past.name_of(frame.source);
     const std::string value = words_text(frame.arguments);
-    const aesl::Script* const script = past.script_of(frame.source);
+    const auto [script, common, file, is_attached] = past.script_of(frame.source, frame.at);
     const Emitters from =
-        script != nullptr ? emitters_of(*script, past.project().common, frame.event) : Emitters{};
-    const auto place = [&](int line) {
-        return fmt::format("{}:{}", rerun_.about().project, script->first_line + line - 1);
+        script != nullptr ? emitters_of(*script, *common, frame.event) : Emitters{};
+    const auto place = [&file = file, script = script](int line) {
+        return fmt::format("{}:{}", file, script->first_line + line - 1);
     };
     Link link{frame.at, fmt::format("{} sent {}", node, frame.event), "", value};
     if (from.lines.size() == 1) {
@@ -46,7 +46,7 @@ void Walk::frame_of_bus_node(uint32_t number, const BusCauses::Frame& frame) {
         return;
     }
     before.place = place(section.line);
-    if (!is_global(past.project().common, section.name)) {
+    if (!is_global(*common, section.name)) {
         before.what = fmt::format("{} probably felt {}", node, section.name);
         add(std::move(before));
         return;

@@ -74,25 +74,20 @@ Status count_trace(const mcap::Reader& reader, PlanCounter& counter, CountedRun&
     return record::check_read(cursor, reader);
 }
 
-// The lines that alone can have sent what was on the bus.
+// The lines that alone can have sent what was on the bus, of the script that is attached.
 ScriptCoverage told_by_frames(const record::PastBus& past) {
-    struct Node {
-        const aesl::Script* script = nullptr;
-        std::map<std::string, int> lines = {};  // of the file, by event; 0: not known
-    };
-    std::map<uint16_t, Node> nodes;
+    // Of the file, by node and event; 0: not known.
+    std::map<uint16_t, std::map<std::string, int>> lines;
     ScriptCoverage told;
     told.only_told = true;
     for (const auto& [number, one] : past.events()) {
         const record::RecordedEvent& event = one.event;
         if (event.node == wire::kHostId) continue;
-        const auto [node, is_new] = nodes.try_emplace(event.node);
-        const aesl::Script*& script = node->second.script;
-        if (is_new) script = past.script_of(event.node);
-        if (script == nullptr) continue;
-        const auto [line, is_first] = node->second.lines.try_emplace(event.name, 0);
+        const auto [script, common, file, is_attached] = past.script_of(event.node, event.at);
+        if (script == nullptr || !is_attached) continue;
+        const auto [line, is_first] = lines[event.node].try_emplace(event.name, 0);
         if (is_first) {
-            const auto from = record::emitters_of(*script, past.project().common, event.name);
+            const auto from = record::emitters_of(*script, *common, event.name);
             const bool is_sure = from.lines.size() == 1;
             if (is_sure) line->second = script->first_line + *from.lines.begin() - 1;
         }

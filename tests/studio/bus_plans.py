@@ -258,7 +258,7 @@ class BusPlans(Case):
 
     def test_before_its_plan_has_run_there_is_nothing_to_ask(self):
         self.open_robot()
-        self.assertIn("none has run yet", self.refused("unavailable", "why.ask", about="end"))
+        self.assertIn("none has begun yet", self.refused("unavailable", "why.ask", about="end"))
 
     def test_a_saved_plan_takes_over_in_the_recording_too(self):
         page = self.open_robot()

@@ -5,8 +5,7 @@
 #include "cli/net/verbs.hpp"
 #include "cli/output.hpp"
 #include "debug/names.hpp"
-#include "record/bus_recorder.hpp"
-#include "record/recorder.hpp"
+#include "record/bus_recording.hpp"
 
 namespace vagus::cli {
 
@@ -51,47 +50,6 @@ private:
     Time next_{};
 };
 
-// A recording of the bus from now on.
-class BusFile {
-public:
-    BusFile(NetSession& session, std::unique_ptr<record::FileTape> tape, std::string_view run)
-        : session_(session), tape_(std::move(tape)), recorder_(*tape_, run), bus_(*tape_) {
-        bus_.begin(session.network().common());
-        began_ = session.now();
-        session.on_frame([this](const wire::Frame& frame) {
-            ++frames_;
-            (void)bus_.frame(at(), {.frame = frame});
-        });
-    }
-    ~BusFile() { session_.on_frame({}); }
-    BusFile(const BusFile&) = delete;
-    BusFile& operator=(const BusFile&) = delete;
-
-    void happened(const debug::Event& event) {
-        if (std::holds_alternative<debug::NodeDescribed>(event.what)) {
-            bus_.described(at(), session_.view(event.node));
-        }
-        bus_.happened(at(), event);
-    }
-    Time at() const { return session_.now() - began_; }
-    uint64_t frames() const { return frames_; }
-    uint64_t dropped() const { return tape_->dropped(); }
-    Status state() const { return tape_->state(); }
-    // With why, if the bus was lost.
-    Status end(const std::string& why) {
-        recorder_.input_at(at(), record::RecordingEnds{why});
-        return tape_->end();
-    }
-
-private:
-    NetSession& session_;
-    std::unique_ptr<record::FileTape> tape_;
-    record::Recorder recorder_;
-    record::BusRecorder bus_;
-    Time began_{};
-    uint64_t frames_ = 0;
-};
-
 // A bus is recorded on when a node is missing: others may be there, and it may come back.
 void tell_presence(const NetSession& session, const debug::Event& event, Time at) {
     const auto* const gone = std::get_if<debug::NodeDisconnected>(&event.what);
@@ -106,7 +64,7 @@ void tell_presence(const NetSession& session, const debug::Event& event, Time at
 }
 
 // Until it is over; the Error is of the bus, or of the file.
-Status follow(NetSession& session, BusFile& file) {
+Status follow(NetSession& session, record::BusRecording& recording) {
     const Time end = session.options().wait_s ? session.now() + session.wait_or(0) : Time::max();
     Reading reading(session);
     while (!session.interrupted() && session.now() < end) {
@@ -114,10 +72,10 @@ Status follow(NetSession& session, BusFile& file) {
         TRY(session.turn(std::min(end, reading.next())));
         for (const debug::Event& event : session.take_events()) {
             if (std::holds_alternative<debug::NodeDescribed>(event.what)) session.adopt_scripts();
-            file.happened(event);
-            tell_presence(session, event, file.at());
+            recording.happened(event);
+            tell_presence(session, event, recording.now());
         }
-        TRY(file.state());
+        TRY(recording.state());
     }
     return Status::done();
 }
@@ -126,18 +84,19 @@ Status follow(NetSession& session, BusFile& file) {
 
 Verdict net_record(NetSession& session, const std::string& path, const FilesRead& files) {
     record::RunFile about;
-    about.kind = record::kBusKind;
     about.verb = record::kNetVerb;
     about.bus = session.options().target;
     about.project = session.options().project_file;
-    const record::PackedFiles packed = record::pack(files.all());
-    auto tape = TRY(record::start_tape(path, about, packed, record::Pace::NeverWaits));
-    BusFile file(session, std::move(tape), record::format_run(about));
-    const Status followed = follow(session, file);
-    const Time at = file.at();
-    const Status written = file.end(followed.ok() ? "" : followed.error().what);
-    complain_left_out(path, file.dropped(), "variables");
-    say(fmt::format("{}: {} s, {} frames\n", path, seconds_text(at), file.frames()));
+    const auto recording = TRY(record::BusRecording::begin(
+        path, about, files.all(), session.network(),
+        [&session, began = session.now()] { return session.now() - began; }));
+    session.on_frame([&recording](const wire::Frame& frame) { recording->frame(frame); });
+    const Status followed = follow(session, *recording);
+    session.on_frame({});
+    const Time at = recording->now();
+    const Status written = recording->end(followed.ok() ? "" : followed.error().what);
+    complain_left_out(path, recording->dropped(), "variables");
+    say(fmt::format("{}: {} s, {} frames\n", path, seconds_text(at), recording->frames()));
     TRY(followed);
     TRY(written);
     return kExitDone;

@@ -218,6 +218,7 @@ void Life::start_now(const Start& start) {
     }
     if (target_ != Target::Bus && start.world_again) return open_world({start.call, true});
     begin(What::Scripts, Phase::Loading, true, start.call);
+    if (target_ == Target::Bus) act(BeginScripts{});
     act(LoadNodes{starts_, false});
 }
 

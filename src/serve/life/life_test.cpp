@@ -92,11 +92,11 @@ TEST(Life, ScriptsOfABusThatHaltAsTheyAreLoadedAreLetGoByTheNextStart) {
     bench.take(Joined{});
     const CallNumber call = bench.call();
     EXPECT_EQ(bench.take(Start{call}), "stop-nodes ");
-    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "load ");
+    EXPECT_EQ(bench.take(Stopped{bench.stop, stood()}), "scripts load ");
     EXPECT_EQ(bench.take(Halted{}), "");
     EXPECT_EQ(bench.take(Loaded{bench.load}), "count answer ");
     EXPECT_EQ(bench.life.state(), State::Paused);
-    EXPECT_EQ(bench.take(Start{bench.call()}), "load ");
+    EXPECT_EQ(bench.take(Start{bench.call()}), "scripts load ");
     EXPECT_EQ(bench.take(Loaded{bench.load}), "count let-go ");
 }
 

@@ -136,6 +136,8 @@ struct OpenRunner {
 };
 // The nodes of the world that was opened can be talked to.
 struct ConnectWorld {};
+// On a bus: scripts are to run, and no plan.
+struct BeginScripts {};
 // Loaded{start} follows.
 struct LoadNodes {
     uint64_t start = 0;
@@ -191,9 +193,10 @@ struct Tell {
     bool again = false;  // only its nodes are others than when it was told first
 };
 
-using Action = std::variant<OpenRunner, ConnectWorld, LoadNodes, LetNodesGo, BeginRun, ContinueRun,
-                            StepPlan, PauseRun, RestRun, PauseNodes, CountStart, EndPlan, StopNodes,
-                            MakeSafe, Disconnect, GoOnLeaving, Answer, AnswerStop, Tell, EndRunner>;
+using Action =
+    std::variant<OpenRunner, ConnectWorld, LoadNodes, LetNodesGo, BeginRun, ContinueRun, StepPlan,
+                 PauseRun, RestRun, PauseNodes, CountStart, EndPlan, StopNodes, MakeSafe,
+                 Disconnect, GoOnLeaving, Answer, AnswerStop, Tell, EndRunner, BeginScripts>;
 using Actions = std::vector<Action>;
 
 }  // namespace vagus::serve::life

@@ -20,7 +20,7 @@ inline std::string word(const Action& action) {
     static constexpr const char* kWords[] = {
         "open-runner", "connect", "load",        "let-go", "begin",    "continue",   "step",
         "pause",       "rest",    "pause-nodes", "count",  "end-plan", "stop-nodes", "make-safe",
-        "disconnect",  "leaving", "answer",      "stood",  "tell",     "end-runner"};
+        "disconnect",  "leaving", "answer",      "stood",  "tell",     "end-runner", "scripts"};
     return kWords[action.index()];
 }
 

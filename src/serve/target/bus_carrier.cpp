@@ -65,13 +65,17 @@ void BusCarrier::hear(const net::Event& event) {
 }
 
 void BusCarrier::send(const wire::Frame& frame) {
+    if (connection_ == Connection::Connected) told_(frame);
     hub_.receive(own_, frame);
 }
 
 std::vector<Carried> BusCarrier::take() {
     std::vector<Carried> frames;
     wire::Frame frame;
-    while (frames.size() < kTakenAtOnce && hub_.take(own_, frame)) frames.push_back({frame});
+    while (frames.size() < kTakenAtOnce && hub_.take(own_, frame)) {
+        told_(frame);
+        frames.push_back({frame});
+    }
     return frames;
 }
 

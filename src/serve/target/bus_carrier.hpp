@@ -2,6 +2,7 @@
 // again for ever, without asking anybody.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -21,6 +22,8 @@ public:
     ~BusCarrier() override;
 
     void hear(const net::Event& event);
+    // Each frame, as it comes or goes.
+    void on_frame(std::function<void(const wire::Frame& frame)> told) { told_ = std::move(told); }
     // Where another process of this computer can join the bus: "tcp:127.0.0.1:40123". Only one at a
     // time is there.
     Result<std::string> open_door();
@@ -45,6 +48,7 @@ private:
     std::optional<net::Listening> door_;
     std::optional<hub::LinkId> guest_;               // who came by the door
     std::optional<std::set<uint16_t>> guest_sends_;  // events; without: all that it likes
+    std::function<void(const wire::Frame& frame)> told_ = [](auto&) {};
     Connection connection_ = Connection::Connecting;
     std::string why_;
     std::optional<hub::LinkId> robot_;  // while it is connected

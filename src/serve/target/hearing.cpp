@@ -120,6 +120,7 @@ void Target::count_dropped(uint16_t from, uint16_t event) {
 
 void Target::hear(const debug::Event& event) {
     desk_.topics().touch("robot");
+    told_.event(event);
     if (auto happened = happened_of(event, source_of(event.node))) happen(std::move(*happened));
     // A node that was just being started may have said meanwhile that it runs.
     if (const auto stopped = stopping_.hear(event)) known_[*stopped].stopped = true;

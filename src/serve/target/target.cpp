@@ -53,7 +53,16 @@ void Target::connect(Carrier& carrier, const std::string& target, const std::str
     heard_ = carrier.heard();
     connection_ = Connection::Connecting;
     network_ = std::make_unique<debug::Network>();
+    name_events();
     desk_.topics().touch("robot");
+}
+
+// Events that come before anything is loaded have the names of the project.
+void Target::name_events() {
+    const std::vector<ScriptPart>& parts = scripts_.parts();
+    if (parts.empty()) return;
+    const aesl::CommonDefinitions* common = scripts_.common(parts.front().file);
+    if (common) network_->set_common(*common);
 }
 
 void Target::disconnect() {

@@ -81,6 +81,8 @@ struct TargetCounts {
 // For the history: what happened; words that were seen, and words that nobody looks at any more.
 struct TargetTold {
     using Words = std::span<const int16_t>;
+    // As the network tells it.
+    std::function<void(const debug::Event& event)> event = [](auto&) {};
     std::function<void(const Happened& happened)> happened = [](auto&) {};
     // The number of the run that it belongs to.
     std::function<uint64_t()> run = [] { return uint64_t{0}; };
@@ -141,6 +143,10 @@ public:
     // As people see it: also one on which nobody answers is lost.
     Connection state() const;
     const std::string& target() const { return target_; }
+    // nullptr while it is not connected; another one after each connect().
+    const debug::Network* network() const { return network_.get(); }
+    // What pages look at is told to the history once more, as far as it is known: it begins again.
+    void tell_words() const;
     // Nodes that have told what they are.
     std::vector<DescribedNode> described() const;
     std::vector<std::string> names_of_nodes() const;  // of these
@@ -283,6 +289,7 @@ private:
     // ---- the link ----
     std::string why_lost() const;
     void watch_link(Time now, bool heard);
+    void name_events();
     void link_changed();
 
     // ---- a live robot brakes as a whole (brake.cpp) ----

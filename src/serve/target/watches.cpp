@@ -192,6 +192,19 @@ void Target::tell_unwatched(uint16_t node, const debug::NodeView& view, const st
                     static_cast<uint16_t>(place->second.second));
 }
 
+void Target::tell_words() const {
+    for (const auto& [node, values] : values_) {
+        for (auto one = values.begin(); one != values.end();) {
+            const uint16_t first = one->first;
+            std::vector<int16_t> words;
+            for (; one != values.end() && one->first == first + words.size(); ++one) {
+                words.push_back(one->second);
+            }
+            told_.words(time(), node, first, words);
+        }
+    }
+}
+
 // Names with address and size: the node's, then the script's.
 std::map<std::string, std::pair<uint32_t, uint32_t>> Target::variables_of(
     const debug::NodeView& view) {

@@ -110,6 +110,7 @@ Status Workbench::open_plan(RunOrder order) {
     order.bus = TRY(bus_->open_door());
     order.project = project_->scripts.empty() ? "" : project_->real(project_->scripts.front());
     order.target = project_->target;
+    end_scripts_recording();
     record_bus();
     // A robot keeps several versions of its project, and has no room for the runs of each.
     if (!places_.serves) record_run(order);
@@ -152,6 +153,11 @@ void Workbench::take_changes(const Continues& continues) {
             if (!why.empty()) say("error", name + " keeps the value that it had then: " + why);
         });
     }
+}
+
+// Scripts that are loaded again while they run are the same run.
+void Workbench::perform(const life::BeginScripts&) {
+    if (!std::exchange(scripts_run_, true)) record_scripts();
 }
 
 void Workbench::perform(const life::LoadNodes& load) {
@@ -201,9 +207,9 @@ void Workbench::perform(const life::PauseNodes& pause) {
     });
 }
 
-// From here on the events of a bus have the clock of the plan, in the list as in its story.
+// From here on the clock of a bus is that of the run.
 void Workbench::perform(const life::CountStart&) {
-    if (bus_) bus_since_ = now_;
+    if (!bus_since_) bus_since_ = now_;
     run_is_over_ = placed_by_hand_ = false;
     ++runs_;
 }
@@ -249,8 +255,9 @@ void Workbench::perform(const life::EndRunner& end) {
 }
 
 void Workbench::perform(const life::Disconnect&) {
+    end_scripts_recording();
     target_.disconnect();
-    recordings_.over(run_.time() > 0);
+    recordings_.over(bus_ || run_.time() > 0);
     run_.close();
     bus_.reset();
     loaded_by_world_.clear();
@@ -283,6 +290,8 @@ void Workbench::perform(const life::AnswerStop& answer) {
 void Workbench::perform(const life::Tell& told) {
     desk_.topics().touch("end");
     if (told.again) return ends_.renew(told.end);
+    end_scripts_recording();
+    if (!bus_since_) bus_since_ = now_;
     run_is_over_ = true;
     ends_.add(told.end, clock(), desk_.wall_ms());
     say(ends_.kind(), ends_.sentence());

@@ -25,17 +25,10 @@ std::string nothing_to_ask(bool on_bus, bool serves) {
         return "this is asked of a recording, and a robot that serves itself records no runs on "
                "its bus; run its plan from the studio of another computer";
     }
-    return "of a robot on a bus the runs of its plan are recorded, and none has run yet; Run "
-           "starts it";
+    return "the runs of a robot on a bus are recorded, and none has begun yet; Run starts one";
 }
 
 }  // namespace
-
-// Seconds of what is kept: those of a simulation, or since the bus or the plan on it began.
-double Workbench::history_clock() const {
-    if (!bus_) return run_.time();
-    return seconds_of(now_ - history_since_);
-}
 
 void Workbench::record_history() {
     history_.set_doc_of([this](const std::string& file) { return doc_of(file); });
@@ -53,6 +46,7 @@ void Workbench::record_history() {
     // A simulation stamps what it tells, and tells itself what happened while its past is run
     // again. On a bus the time is that of hearing it.
     target_.on_told({
+        .event = [this](const debug::Event& event) { scripts_recording_.happened(event); },
         .happened =
             [this](const Happened& one) {
                 record_happened(one);
@@ -62,17 +56,17 @@ void Workbench::record_history() {
         // Of a simulation the records tell all words.
         .words =
             [this](double, uint16_t node, uint16_t address, std::span<const int16_t> values) {
-                if (bus_) history_.words(history_clock(), node, address, values);
+                if (bus_) history_.words(clock(), node, address, values);
             },
         .unwatched =
             [this](double, uint16_t node, uint16_t address, uint16_t count) {
-                if (bus_) history_.unwatched(history_clock(), node, address, count);
+                if (bus_) history_.unwatched(clock(), node, address, count);
             },
     });
 }
 
 void Workbench::record_happened(Happened happened) {
-    if (bus_) happened.t = history_clock();
+    if (bus_) happened.t = clock();
     history_.happened(std::move(happened));
 }
 
@@ -84,7 +78,7 @@ void Workbench::record_plan(const RunOrder& order) {
 
 // A run that cannot be recorded goes all the same.
 void Workbench::record_run(RunOrder& order) {
-    auto path = recordings_.next(run_.time() > 0, order.past ? order.past->recording : "");
+    auto path = recordings_.next(bus_ || run_.time() > 0, order.past ? order.past->recording : "");
     if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
     order.recording = std::move(path.value());
     std::erase_if(recorded_,
@@ -143,15 +137,24 @@ void Workbench::begin_past(const Call& call, RunOrder order, bool go) {
 
 // What the nodes were loaded with is among the frames; this is for names and lines.
 void Workbench::record_script(uint16_t node, const std::string& name) {
-    if (bus_ || !project_) return;
+    if (!project_) return;
     const ScriptPart* const part = scripts_.for_node(name, node);
     const auto text = part ? files_.text(part->file) : Error{Code::NotFound, ""};
-    if (text.ok()) run_.script_loaded(node, project_->real(part->file), text.value());
+    if (!text.ok()) return;
+    const std::string file = project_->real(part->file);
+    if (bus_) return scripts_recording_.loaded(node, file, text.value());
+    run_.script_loaded(node, file, text.value());
 }
 
 ShownRun Workbench::shown_run() {
     return {.file = [this] { return recording_of_run(); },
-            .flush = [this](std::function<void()> done) { run_.flush_recording(std::move(done)); },
+            .flush =
+                [this](std::function<void()> done) {
+                    if (scripts_recording_.records()) {
+                        return scripts_recording_.flush(std::move(done));
+                    }
+                    run_.flush_recording(std::move(done));
+                },
             .kept = [this](const std::string& path) { return asked_recording(path); }};
 }
 
@@ -167,7 +170,7 @@ Result<std::string> Workbench::recording_of_run() const {
     const std::string path = recordings_.of_run(bus_ || run_.time() > 0);
     std::error_code failed;
     if (!path.empty() && std::filesystem::exists(path, failed)) return path;
-    if (!path.empty() && run_.time() > 0) {
+    if (!path.empty() && (bus_ || run_.time() > 0)) {
         return Error{Code::NotFound, with_short_paths(path) +
                                          ": the recording of this run is not there any more; "
                                          "Run makes a new one"};
@@ -310,11 +313,37 @@ Result<std::string> Workbench::new_test(const std::string& main, const std::stri
                  fmt::format("there are {} tests of {} already; delete some", kTestNamesMax, main)};
 }
 
+// What comes before it runs is at its beginning.
 void Workbench::record_bus() {
-    history_since_ = now_;
+    bus_since_.reset();
     History::Beginning beginning{.kind = "bus", .name = project_ ? project_->target : ""};
     history_.forget();
     history_.begin(std::move(beginning));
+    target_.tell_words();
+}
+
+void Workbench::end_scripts_recording() {
+    scripts_run_ = false;
+    scripts_recording_.end();
+}
+
+// A robot that serves itself keeps several versions of its project, and has no room for runs.
+void Workbench::record_scripts() {
+    record_bus();
+    if (places_.serves || !project_ || project_->scripts.empty()) return;
+    const auto path = recordings_.next(true);
+    if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
+    record::RunFile about;
+    about.verb = record::kStudioVerb;
+    about.bus = project_->target;
+    about.project = project_->real(project_->scripts.front());
+    std::map<std::string, std::string> files;
+    for (const std::string& script : project_->scripts) {
+        const auto text = files_.text(script);
+        if (text.ok()) files[project_->real(script)] = text.value();
+    }
+    scripts_recording_.begin(path.value(), std::move(about), files, *target_.network(),
+                             [this] { return from_seconds(clock()); });
 }
 
 }  // namespace vagus::serve

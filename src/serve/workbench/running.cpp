@@ -54,8 +54,9 @@ Status Workbench::join_target(const std::string& target) {
     auto connected = BusCarrier::connect(links_, target);
     if (!connected.ok()) return connected.error();
     bus_ = std::move(connected.value());
-    bus_since_ = now_;
+    bus_->on_frame([this](const wire::Frame& frame) { scripts_recording_.frame(frame); });
     record_bus();
+    bus_since_ = now_;
     target_.connect(*bus_, target, target, "bus", now_);
     tell_life(life::Joined{});
     live();

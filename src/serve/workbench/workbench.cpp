@@ -100,6 +100,7 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
         if (plan_breakpoints_.note(list)) desk_.topics().touch("breakpoints");
     });
     record_history();
+    scripts_recording_.on_say([this](const auto& kind, const auto& text) { say(kind, text); });
     desk.on_people([this] { people_changed(); });
     declare_topics();
     declare_project_commands();
@@ -117,10 +118,11 @@ void Workbench::say(const std::string& kind, const std::string& text) {
     line_(kind, text);
 }
 
-// Seconds since the run began; on a bus without one, since it was connected.
+// Seconds: those of a simulation, or since what runs on the bus began; since it was connected, if
+// nothing has.
 double Workbench::clock() const {
     if (!bus_) return run_.time();
-    return seconds_of(now_ - bus_since_);
+    return bus_since_ ? seconds_of(now_ - *bus_since_) : 0;
 }
 
 // ---- documents ----
@@ -437,7 +439,8 @@ void Workbench::keep_breakpoints() {
 
 // What has run since is what people look at.
 void Workbench::forget_recording() {
-    if (!project_ || project_->recording.empty() || run_.time() <= 0) return;
+    if (!project_ || project_->recording.empty()) return;
+    if (run_.time() <= 0 && !scripts_run_) return;
     project_->recording.clear();
     desk_.topics().touch("studio");
 }
@@ -457,10 +460,11 @@ void Workbench::tick(Time now) {
     watch_run();
     target_.tick(now);
     if (bus_) run_.hold_nodes(target_.held_nodes());
-    if (run_.is_open() || bus_) history_.tick(history_clock());
+    if (run_.is_open() || bus_) history_.tick(clock());
     add_missing_scripts();
     tick_life();
     worker_.tick();
+    scripts_recording_.tick();
     whys_.tick(now);
     turnings_.tick(now);
     logs_.tick(now);
@@ -495,6 +499,7 @@ Time Workbench::next_tick(Time now) const {
     next = std::min({next, whys_.next_tick(), turnings_.next_tick(), logs_.next_tick(),
                      pairs_.next_tick(), keeps_.next_tick(), compares_.next_tick(),
                      tries_.next_tick(), tests_.next_tick()});
+    next = std::min(next, scripts_recording_.next_tick(now));
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

@@ -43,6 +43,7 @@
 #include "serve/workbench/pair_desk.hpp"
 #include "serve/workbench/recordings.hpp"
 #include "serve/workbench/run_ends.hpp"
+#include "serve/workbench/scripts_recording.hpp"
 #include "serve/workbench/targets.hpp"
 #include "serve/workbench/test_desk.hpp"
 #include "serve/workbench/try_desk.hpp"
@@ -240,7 +241,8 @@ private:
     Result<std::string> new_test(const std::string& main, const std::string& text);
     void record_plan(const RunOrder& order);
     void record_bus();
-    double history_clock() const;
+    void record_scripts();
+    void end_scripts_recording();
 
     // ---- running.cpp: what people ask of a run ----
     void declare_run_commands();
@@ -286,6 +288,7 @@ private:
     void perform(const life::OpenRunner& open);
     void perform(const life::ConnectWorld&);
     void take_changes(const Continues& continues);
+    void perform(const life::BeginScripts&);
     void perform(const life::LoadNodes& load);
     void perform(const life::LetNodesGo& go);
     void perform(const life::BeginRun&);
@@ -322,10 +325,11 @@ private:
     Run run_;
     Worker worker_;
     HistoryDesk history_;
-    Time history_since_{};  // of a bus
     Recordings recordings_;
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
     std::optional<Continues> continues_;        // the run that is being opened
+    ScriptsRecording scripts_recording_;
+    bool scripts_run_ = false;  // on a bus, without a plan
     WhyDesk whys_;
     TurningDesk turnings_;
     LogDesk logs_;
@@ -335,7 +339,7 @@ private:
     TryDesk tries_;
     TestDesk tests_;
     std::unique_ptr<BusCarrier> bus_;
-    Time bus_since_{};
+    std::optional<Time> bus_since_;  // nothing: what is to run there has not begun
     Targets targets_;
 
     std::function<void(const std::string&, const std::string&)> line_ = [](auto&, auto&) {};

@@ -1,13 +1,20 @@
 // Why something in a run is as it is, asked by keys and menus; and the recording that answers.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { readdirSync, statSync } from 'node:fs';
+import { readFileSync, readdirSync, statSync } from 'node:fs';
 import { join } from 'node:path';
 import { look } from './support/axe.mjs';
 import { runTo } from './support/runs.mjs';
-import { vagusProgram } from './support/server.mjs';
+import { root, vagusProgram } from './support/server.mjs';
 import { focused, reads, seen, test, until } from './support/studio.mjs';
 /** @import { Page, Studio } from './support/studio.mjs' */
+
+/** As the editor of bumper counts it, whose script begins in the line of its node. */
+function lineOfBumper(/** @type {string} */ part) {
+  const file = readFileSync(join(root, 'examples/carbot/carbot.aesl'), 'utf8');
+  const script = file.slice(file.indexOf('name="bumper"')).split('\n');
+  return 1 + script.findIndex((line) => line.includes(part));
+}
 
 const wall = { words: ['--example', 'follow-wall'] };
 
@@ -83,7 +90,7 @@ test('the robot bumped: why, back to that instant, and its line', wall, async (s
   await lookingBackIsSeen(studio);
   // The line of the script that told it.
   const emitted = links(page).filter({ hasText: 'the script of bumper emitted touch.pressed' });
-  await reads(emitted, /carbot\.aesl:\d+/);
+  await reads(emitted, new RegExp(`bumper:${lineOfBumper('emit touch.pressed')}\\b`));
   await emitted.click();
   const lines = studio.editor('bumper').locator('.cm-line');
   await until('the line is in sight', async () =>

@@ -1,7 +1,9 @@
 import type { WhyLink } from '../../../core/asking';
 import { shownTime } from '../../../core/numbers';
+import { partOf } from '../../../core/paths';
 import type { Studio } from '../../../core/studio';
 import { revealDoc } from '../../../core/window_state';
+import { nameOf } from '../../documents';
 import { useStudio } from '../../hooks';
 import { stepThroughRows } from '../../parts/list_keys';
 import { revealElement } from '../../views/plan/reveal_element';
@@ -37,6 +39,7 @@ interface RowProps {
 }
 
 function Row({ link, isFirst, earlier, onOpen }: RowProps) {
+  const studio = useStudio();
   const { t, what, value, place } = link;
   return (
     <button
@@ -51,12 +54,18 @@ function Row({ link, isFirst, earlier, onOpen }: RowProps) {
         {what} <Value value={value} />
       </span>
       <time className="num">{shownTime(t)}</time>
-      <span className="because__place ellipsis">
-        {place === '' && link.root ? words.root : place}
+      <span className="because__place ellipsis" title={place}>
+        {place === '' && link.root ? words.root : shownPlace(studio, link)}
       </span>
       <span className="because__gap num">{earlier ? gapOf(t - earlier.t) : ''}</span>
     </button>
   );
+}
+
+/** A line of a script as the editor counts it: its file has the scripts of other nodes before it. */
+function shownPlace(studio: Studio, { place, doc, line }: WhyLink): string {
+  if (doc === undefined || line === undefined || partOf(doc).part === 0) return place;
+  return `${nameOf(studio, doc)}:${line}`;
 }
 
 /** Numbers as code; what a local event is about is a sentence. */

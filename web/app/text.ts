@@ -326,6 +326,7 @@ export const text = {
     row: (name: string) => `Why ${name}?`,
   },
   past: {
+    earlierRuns: 'Open a run before this one',
     escape: 'back to now',
     agoShort: (seconds: string) => `${seconds} s ago`,
     notRecorded: 'not recorded',

@@ -308,8 +308,8 @@ test('a run before this one is opened from the timeline, by keys', wall, async (
   await press('Space', 'F9', 'F5');
   await seen(page.getByText('Paused by the breakpoint parallelToWall'));
   await until('the clock shows a later instant', async () => (await clock(page)) > first);
-  await page.getByRole('tab', { name: 'Timeline' }).click();
-  await page.getByRole('button', { name: 'Open a run before this one' }).focus();
+  await press('Control+k');
+  await type('open a run before');
   await press('Enter');
   const runs = page.getByRole('menuitem', { name: /^Run \d+, until/ });
   await seen(runs.first());

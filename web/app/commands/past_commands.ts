@@ -2,6 +2,7 @@ import { kPastStep } from '../../core/past';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { revealDoc, revealPanel, toast } from '../../core/window_state';
+import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
 import { askDecided, askWhy } from './ask_why';
 import { shownEditor } from './editor_handles';
@@ -83,6 +84,21 @@ export function pastCommands(studio: Studio): Command[] {
       group,
       enabled: known,
       run: () => past.step(-kPastSeconds),
+    },
+    {
+      id: 'past.runs',
+      title: `${text.past.earlierRuns}…`,
+      group,
+      enabled: () => drives(studio) && studio.topics.get('studio', {})?.project !== undefined,
+      run() {
+        revealPanel(studio.window, 'timeline');
+        takeFocus(() => {
+          const button = document.querySelector<HTMLElement>('[data-earlier-runs]');
+          button?.focus();
+          button?.click();
+          return button !== null;
+        });
+      },
     },
     {
       id: 'past.continue',

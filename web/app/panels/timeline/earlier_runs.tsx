@@ -21,6 +21,7 @@ export function EarlierRuns() {
         <button
           type="button"
           className="btn btn--plain btn--small btn--icon"
+          data-earlier-runs
           aria-label={words.earlier}
           data-tip={words.earlier}
           disabled={!drives}

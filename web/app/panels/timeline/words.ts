@@ -1,5 +1,7 @@
 // Words of the timeline: apart from text.ts, as they come with that panel alone.
 
+import { text } from '../../text';
+
 export const words = {
   cursor: 'Instant that is shown',
   help: 'Left and right go 20 ms, with Shift to the steps of the plan; plus and minus zoom; Home shows everything; Escape leads back to now.',
@@ -24,7 +26,7 @@ export const words = {
   follow: 'Follow the newest',
   larger: 'Zoom in',
   smaller: 'Zoom out',
-  earlier: 'Open a run before this one',
+  earlier: text.past.earlierRuns,
   asks: 'Looking for recordings…',
   planOf: 'Robot whose plan is shown',
   noEarlier: 'No run before this one is recorded.',

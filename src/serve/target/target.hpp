@@ -345,6 +345,7 @@ private:
     void hear_place(const debug::Event& event, const debug::BreakpointResult& result);
     void happen(Happened happened);
     void put_watched_together();
+    void begin_samples(const std::pair<uint16_t, uint16_t>& word);
     void watch_what_is_shown();
     bool is_told(const std::string& node, const std::string& variable) const;
     void tell_unwatched(uint16_t node, const debug::NodeView& view, const std::string& name);

@@ -143,8 +143,13 @@ protected:
 
     TargetTest()
         : desk(Access(kPageToken, "fedcba9876543210"),
-               {.send = [this](ClientId, bool,
-                               std::string bytes) { got_.push_back(Json::parse(bytes)); },
+               {.send =
+                    [this](ClientId, bool binary, std::string bytes) {
+                        if (binary)
+                            frames_.push_back(bytes);
+                        else
+                            got_.push_back(Json::parse(bytes));
+                    },
                 .close = [](ClientId, const std::string&) {},
                 .log = [](const std::string&) {},
                 .wall_ms = [] { return 1e12; }}),
@@ -268,6 +273,7 @@ protected:
     test::Folder root_;
     Time now = 10s;
     std::vector<Json> got_;
+    std::vector<std::string> frames_;  // of binary topics
     uint64_t id_ = 0;
     uint32_t watches_ = 0;
     Desk desk;

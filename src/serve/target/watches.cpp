@@ -146,8 +146,20 @@ void Target::put_watched_together() {
         }
     }
     for (auto& [node, ranges] : wanted_) ranges = merged(std::move(ranges));
-    for (const auto& word : plotted) samples_[word];
+    for (const auto& word : plotted) begin_samples(word);
     std::erase_if(samples_, [&](const auto& entry) { return !plotted.contains(entry.first); });
+}
+
+// What is watched already is told again only when it changes: a plot begins with what it is now.
+void Target::begin_samples(const std::pair<uint16_t, uint16_t>& word) {
+    const auto [samples, is_new] = samples_.try_emplace(word);
+    if (!is_new) return;
+    const auto node = values_.find(word.first);
+    if (node == values_.end()) return;
+    const auto value = node->second.find(word.second);
+    if (value == node->second.end()) return;
+    samples->second.kept.push_back({time(), value->second});
+    ++samples->second.end;
 }
 
 // Asks for the variables that pages show now, and no longer for those that they do not.

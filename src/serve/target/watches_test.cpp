@@ -47,6 +47,27 @@ TEST_F(WatchedTest, NamingWordsTwiceCostsNothing) {
     EXPECT_EQ(target.watched_made(), made + 2);
 }
 
+// What is watched already is told again only when it changes; a plot of it was empty until then.
+TEST_F(WatchedTest, APlotBeginsWithTheValueThatIsKnown) {
+    constexpr uint16_t kWheelTarget = 34;  // behind id, source and 32 arguments
+    constexpr char kSamples = 2;           // as the protocol numbers the topic
+    connect();
+    bus.word(kDrive, "wheel.target") = 7;
+    EXPECT_TRUE(watch(1, kDrive, {{kWheelTarget, kWheelTarget + 1}}).contains("ok"));
+    pass(1s);
+    const Json words = {{kDrive, kWheelTarget}};
+    ask("watch", {{"watch", 2}, {"topic", "samples"}, {"of", {{"words", words}}}});
+    for (int i = 0; i < 10; ++i) {
+        pass(100ms);
+        desk.tick(now);
+    }
+    std::erase_if(frames_, [](const std::string& frame) { return frame[0] != kSamples; });
+    ASSERT_EQ(frames_.size(), 1u);
+    // A head of 16 bytes, then time, index and value of each sample.
+    ASSERT_EQ(frames_[0].size(), 16u + 12u);
+    EXPECT_EQ(frames_[0].substr(16 + 8), std::string("\0\0\7\0", 4));
+}
+
 TEST_F(WatchedTest, ASubscriptionHasALimitOfWords) {
     EXPECT_TRUE(watch(1, kDrive, {{0, 4000}, {4000, 96}}).contains("ok"));
     const Json answer = watch(2, kDrive, {{0, 4000}, {4000, 97}});

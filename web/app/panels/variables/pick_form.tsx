@@ -82,7 +82,7 @@ export function PickForm({
         aria-label={label}
         placeholder={label}
         aria-invalid={wrong}
-        title={wrong ? words.noSuch : undefined}
+        aria-describedby={wrong ? `${list}why` : undefined}
         value={typed}
         spellCheck={false}
         onFocus={() => setAsked(true)}
@@ -107,6 +107,11 @@ export function PickForm({
         tip={words.add}
         icon={<IconPlus size={14} stroke={kStroke} />}
       />
+      {wrong ? (
+        <span className="why" id={`${list}why`} role="alert">
+          {words.noSuch}
+        </span>
+      ) : null}
     </form>
   );
 }

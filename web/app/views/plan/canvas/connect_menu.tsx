@@ -59,9 +59,10 @@ export function ConnectMenu(props: {
         value={typed}
         onChange={(event) => type(event.target.value)}
         onKeyDown={(event) => {
-          if (event.key === 'Enter') first();
-          if (event.key !== 'ArrowDown') return;
+          if (event.key !== 'Enter' && event.key !== 'ArrowDown') return;
+          // The rest of the press would be a click on what has the keyboard next.
           event.preventDefault();
+          if (event.key === 'Enter') return first();
           event.currentTarget.parentElement?.querySelector<HTMLElement>('[role=menuitem]')?.focus();
         }}
       />

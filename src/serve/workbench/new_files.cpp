@@ -27,6 +27,7 @@ onevent prox
     end
 
 # When the button with the arrow ahead is pressed or let go.
+# In the simulator, select the robot in the world: its buttons are below it.
 onevent button.forward
     if button.forward == 1 then
         motor.left.target = 200

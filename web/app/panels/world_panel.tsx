@@ -1,11 +1,14 @@
 import { IconMap2 } from '@tabler/icons-react';
-import { useRef } from 'react';
+import { Suspense, useRef } from 'react';
+import type { WorldModel } from '../../core/world/model';
 import type { Doc } from '../../protocol/messages';
-import { useTopic } from '../hooks';
+import { useStudio, useTopic } from '../hooks';
 import { Blank } from '../parts/blank';
 import { kStroke } from '../parts/icons';
+import { late } from '../parts/late';
 import { useShown } from '../robot_hooks';
 import { text } from '../text';
+import { useDesk, useModel } from '../views/world/desk';
 import {
   useFileStage,
   useHasScene,
@@ -18,6 +21,8 @@ import { SpeedBar } from '../views/world/speed_bar';
 import { ThingList } from '../views/world/thing_list';
 import { WorldStage } from '../views/world/world_stage';
 import '../look/world.css';
+
+const PressStrip = late(() => import('../views/world/press_strip'), 'button');
 
 /** The world as it runs; while nothing runs, as its file says. */
 export default function WorldPanel() {
@@ -46,9 +51,22 @@ function Running() {
         <div className="world__wide">
           <SpeedBar />
         </div>
+        <Buttons model={model} />
       </WorldStage>
       <ThingList model={model} hidden />
     </div>
+  );
+}
+
+/** Of the robot that is selected, where no form has them. */
+function Buttons({ model }: { model: WorldModel }) {
+  const desk = useDesk(useStudio());
+  const { chosen } = useModel(model);
+  if (desk.hasForm || chosen?.kind !== 'robot') return null;
+  return (
+    <Suspense>
+      <PressStrip robot={chosen.name} />
+    </Suspense>
   );
 }
 

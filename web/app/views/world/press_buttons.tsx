@@ -4,30 +4,37 @@ import { useMayAct } from '../../past_hooks';
 import { Button } from '../../parts/button';
 import { formWords } from './form_words';
 
-/** Buttons and touch sensors of a robot: down as long as they are held, by mouse or by key. */
+/** In the form of a robot. */
 export function PressButtons({ robot }: { robot: string }) {
+  return (
+    <div className="prop__group">
+      <h3 className="prop__title">{formWords.buttons}</h3>
+      <ButtonRow robot={robot} />
+    </div>
+  );
+}
+
+/** Buttons and touch sensors of a robot: down as long as they are held, by mouse or by key. */
+export function ButtonRow({ robot }: { robot: string }) {
   const studio = useStudio();
   const drives = useMayAct();
   const known = useTopic('scene', {})?.robots.find((one) => one.name === robot);
   if (!known) return null;
   return (
-    <div className="prop__group">
-      <h3 className="prop__title">{formWords.buttons}</h3>
-      <div className="prop__buttons">
-        {known.buttons.map((button) => (
-          <HeldButton key={button} robot={robot} button={button} />
-        ))}
-        {known.type === 'thymio2' ? (
-          <Button
-            small
-            disabled={!drives}
-            tip={formWords.tapHelp}
-            onClick={() => studio.order('world.tap', { robot })}
-          >
-            {formWords.tap}
-          </Button>
-        ) : null}
-      </div>
+    <div className="prop__buttons">
+      {known.buttons.map((button) => (
+        <HeldButton key={button} robot={robot} button={button} />
+      ))}
+      {known.type === 'thymio2' ? (
+        <Button
+          small
+          disabled={!drives}
+          tip={formWords.tapHelp}
+          onClick={() => studio.order('world.tap', { robot })}
+        >
+          {formWords.tap}
+        </Button>
+      ) : null}
     </div>
   );
 }

@@ -149,7 +149,7 @@ export const smallPlans: Record<LayoutName, Split> = {
   Script: smallPlan(
     ['variables', 'project', 'watch', 'world', 'events'],
     ['script'],
-    ['problems', 'search', 'plots', 'console'],
+    ['problems', 'search', 'timeline', 'plots', 'console'],
   ),
   Debug: smallPlan(
     ['world', 'watch', 'variables', 'breakpoints', 'network'],
@@ -164,6 +164,24 @@ export const smallPlans: Record<LayoutName, Split> = {
     ],
   },
 };
+
+/** In such a window that is high, as a tablet on its end: the panels share two places below the documents. */
+export function tallPlan({ parts }: Split): Split {
+  const panels = parts.flatMap((part) => (part.is === 'panels' ? part.panels : []));
+  const isRight = (panel: string) => panel === 'world' || panel === 'events';
+  const below = [panels.filter((panel) => !isRight(panel)), panels.filter(isRight)];
+  return {
+    is: 'column',
+    parts: [
+      ...parts.filter((part) => part.is === 'documents'),
+      {
+        is: 'row',
+        size: 400,
+        parts: below.flatMap((some) => (some.length > 0 ? { is: 'panels', panels: some } : [])),
+      },
+    ],
+  };
+}
 
 function smallPlan(
   side: readonly string[],

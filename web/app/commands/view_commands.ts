@@ -153,7 +153,7 @@ function showHelp(studio: Studio, tab: 'help' | 'keys'): void {
 
 function resetLayout(studio: Studio): void {
   const { layout } = studio.window.getState();
-  for (const key of [`layout.${layout}`, `layout.small.${layout}`]) keepState(studio, key, null);
+  for (const form of ['', 'small.', 'tall.']) keepState(studio, `layout.${form}${layout}`, null);
   update(studio.window, (draft) => void draft.layoutNonce++);
 }
 

@@ -16,6 +16,7 @@ import {
   filled,
   layoutPlans,
   smallPlans,
+  tallPlan,
   type DocumentKind,
   type LayoutName,
   type Split,
@@ -28,7 +29,7 @@ import { takeFocus } from '../parts/take_focus';
 import { panelOf } from './panels';
 import { carryDocuments, type Opened } from './carry';
 import { usePausedPlan } from './use_paused_plan';
-import { useSmall } from './use_small';
+import { useWindowForm, type WindowForm } from './use_window_form';
 import {
   areaFor,
   areaForPanel,
@@ -58,11 +59,11 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
   const state = usePart('state', {}, hasCome);
   const files = usePart('files', {}, hasCome);
   const ready = scripts && state && files;
-  const small = useSmall();
+  const form = useWindowForm();
   const lacking = usePart('studio', {}, lackingIn);
   // The other layouts are places of work: what is missing is made there.
   const lacks = layout === 'Present' ? lacking : '';
-  const key = keyOf(layout, small) + lacks;
+  const key = keyOf(layout, form) + lacks;
   const [made, setMade] = useState<{ model: Model; key: string } | null>(null);
   const extent = useRef<Extent>({ width: 0, height: 0 });
   const before = useRef<Opened | null>(null);
@@ -75,7 +76,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     if (studio.window.getState().layout !== layout) return;
     const { clientWidth: width, clientHeight: height } = frameRef.current;
     extent.current = { width, height };
-    const plan = planOf(layout, small, lacks);
+    const plan = planOf(layout, form, lacks);
     const next = openLayout(studio, { plan, key }, nonce > 0, extent.current);
     const opened = { model: next, plan };
     if (before.current) carryDocuments(studio, before.current, opened, closed.current);
@@ -84,7 +85,7 @@ export function useDock(frameRef: RefObject<HTMLDivElement | null>): {
     before.current = opened;
     keys.set(next, key);
     setMade({ model: next, key });
-  }, [studio, layout, small, lacks, key, keys, nonce, ready, frameRef]);
+  }, [studio, layout, form, lacks, key, keys, nonce, ready, frameRef]);
 
   const model = made?.model ?? null;
   useFit(frameRef, model, extent);
@@ -112,15 +113,16 @@ function lackingIn(studio: Topics['studio']['is'] | undefined): Lacks {
   return `${plan}${world}`;
 }
 
-function planOf(layout: LayoutName, small: boolean, lacks: Lacks): Split {
-  const plan = (small ? smallPlans : layoutPlans)[layout];
+function planOf(layout: LayoutName, form: WindowForm, lacks: Lacks): Split {
+  const small = smallPlans[layout];
+  const plan = { large: layoutPlans[layout], small, tall: tallPlan(small) }[form];
   if (lacks === '') return plan;
   return filled(plan, { plan: !lacks.includes('-plan'), world: !lacks.includes('-world') });
 }
 
 /** What a layout is kept under; that of a small window beside the other one. */
-function keyOf(layout: LayoutName, small: boolean): string {
-  return small ? `layout.small.${layout}` : `layout.${layout}`;
+function keyOf(layout: LayoutName, form: WindowForm): string {
+  return form === 'large' ? `layout.${layout}` : `layout.${form}.${layout}`;
 }
 
 function noteClosed(closed: Set<Doc>, { type, data }: Action): void {

@@ -1,4 +1,5 @@
-// Which tip is shown: that of the element on which the pointer rests or that has the keyboard's focus.
+// Which tip is shown: that of the element on which the pointer rests, that a finger holds, or that has the
+// keyboard's focus.
 
 import { useEffect, useState } from 'react';
 import type { World } from '../../core/socket';
@@ -6,6 +7,8 @@ import { useStudio } from '../hooks';
 
 export const kTipId = 'tip';
 const kRestMs = 400;
+/** A finger that stays so long does not tap. */
+const kHoldMs = 500;
 
 export interface Tip {
   target: HTMLElement;
@@ -28,6 +31,8 @@ export function useTip(): Tip | null {
 function follow(world: World, show: (tip: Tip | null) => void): () => void {
   let target: HTMLElement | null = null;
   let cancel = () => {};
+  /** A finger has asked what this is; until the next one comes, its tip stays. */
+  let asked: HTMLElement | null = null;
   const aim = (at: HTMLElement | null) => {
     if (at === target) return;
     cancel();
@@ -35,22 +40,40 @@ function follow(world: World, show: (tip: Tip | null) => void): () => void {
     show(null);
     if (at) cancel = world.later(kRestMs, () => show(tipOn(at)));
   };
-  const hide = () => aim(null);
+  const hide = () => asked ?? aim(null);
   const rests = ({ target: at, pointerType }: PointerEvent) =>
-    aim(pointerType === 'touch' ? null : withTip(at));
+    pointerType === 'touch' ? hide() : aim(withTip(at));
   // Out of the window; into another element is that one's "pointerover".
   const left = ({ relatedTarget }: PointerEvent) => relatedTarget === null && hide();
   const focused = ({ target: at }: FocusEvent) => {
     const found = withTip(at);
     if (found?.matches(':focus-visible')) aim(found);
   };
+  const forget = () => {
+    asked = null;
+    aim(null);
+  };
+  const down = ({ target: at, pointerType }: PointerEvent) => {
+    forget();
+    const found = pointerType === 'touch' ? withTip(at) : null;
+    if (found) cancel = world.later(kHoldMs, () => show(tipOn((asked = target = found))));
+  };
+  const lifted = () => asked ?? cancel();
+  /** Who asked what a button is has not pressed it. */
+  const clicked = (event: MouseEvent) => {
+    if (event.target instanceof Node && asked?.contains(event.target)) event.stopPropagation();
+  };
   const listened = new AbortController();
   const options = { capture: true, passive: true, signal: listened.signal };
   document.addEventListener('pointerover', rests, options);
   document.addEventListener('pointerout', left, options);
   document.addEventListener('focusin', focused, options);
-  for (const end of ['focusout', 'pointerdown', 'keydown', 'wheel'] as const)
-    document.addEventListener(end, hide, options);
+  document.addEventListener('pointerdown', down, options);
+  document.addEventListener('click', clicked, options);
+  for (const end of ['pointerup', 'pointercancel'] as const)
+    document.addEventListener(end, lifted, options);
+  document.addEventListener('keydown', forget, options);
+  for (const end of ['focusout', 'wheel'] as const) document.addEventListener(end, hide, options);
   return () => {
     cancel();
     listened.abort();

@@ -15,7 +15,7 @@ export function editCommands(studio: Studio): Command[] {
   const make = (
     id: EditId,
     keys: string[],
-    act: Exclude<keyof EditorHandle, 'word' | 'line'>,
+    act: Exclude<keyof EditorHandle, 'word' | 'line' | 'mayUndo' | 'mayRedo'>,
     may: () => boolean,
   ): Command => ({
     id,
@@ -36,6 +36,9 @@ export function editCommands(studio: Studio): Command[] {
     make('edit.complete', ['Ctrl+Space'], 'complete', script),
     make('edit.find', ['Ctrl+F'], 'find', () => true),
     make('edit.comment', ['Ctrl+/'], 'comment', changes),
+    // Its keys are the editor's own. A keyboard on a screen has none of them.
+    make('edit.undo', [], 'undo', () => changes() && (shownEditor(studio)?.mayUndo() ?? false)),
+    make('edit.redo', [], 'redo', () => changes() && (shownEditor(studio)?.mayRedo() ?? false)),
     make('break.toggle', ['F9'], 'toggleBreakpoint', inScript),
     make('break.edit', ['Ctrl+F9'], 'editBreakpoint', inScript),
     {

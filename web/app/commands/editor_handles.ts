@@ -12,6 +12,10 @@ export interface EditorHandle {
   complete(): void;
   find(): void;
   comment(): void;
+  undo(): void;
+  redo(): void;
+  mayUndo(): boolean;
+  mayRedo(): boolean;
   focus(): void;
   /** Where the caret is, while the editor has the focus; '' if there is none. */
   word(): string;

@@ -2,7 +2,6 @@ import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
 import { revealPanel, update } from '../../core/window_state';
 import { text } from '../text';
-import { exportZip } from './export_zip';
 import { drives, mayLeave, projectOf } from './looks';
 
 const titles = text.commands;
@@ -93,7 +92,8 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['file.export'],
       group,
       enabled: () => projectOf(studio) !== null,
-      run: () => exportZip(studio),
+      // Loaded when it is first used: few ever export.
+      run: async () => (await import('./export_zip')).exportZip(studio),
     },
   ];
 }

@@ -1,4 +1,6 @@
 import {
+  IconArrowBackUp,
+  IconArrowForwardUp,
   IconBinary,
   IconDeviceFloppy,
   IconPlayerPause,
@@ -35,6 +37,24 @@ export function DocumentTools({ doc }: { doc: Doc }) {
   const off = !mayAct || !isHere;
   return (
     <div className="doctools">
+      <Button
+        kind="plain"
+        small
+        className="byfinger"
+        disabled={!drives}
+        tip={text.commands['edit.undo']}
+        icon={<IconArrowBackUp size={14} stroke={kStroke} />}
+        onClick={() => run('edit.undo')}
+      />
+      <Button
+        kind="plain"
+        small
+        className="byfinger"
+        disabled={!drives}
+        tip={text.commands['edit.redo']}
+        icon={<IconArrowForwardUp size={14} stroke={kStroke} />}
+        onClick={() => run('edit.redo')}
+      />
       <Button
         kind="plain"
         small

@@ -17,6 +17,7 @@ import { wordAt } from '../../../core/help/entries';
 import { logLinesOf, type LogLine } from '../../../core/log_lines';
 import { mentionedIn, readWords, valueText } from '../../../core/values';
 import { pausedLineOf } from '../../../core/run_state';
+import type { TextSession } from '../../../core/session/text_session';
 import type { Settings } from '../../../core/settings';
 import { update } from '../../../core/window_state';
 import { addEditor } from '../../commands/editor_handles';
@@ -216,6 +217,12 @@ function useHandle(doc: Doc, view: EditorView | null): void {
     if (!view) return;
     const head = () => view.state.selection.main.head;
     const line = () => view.state.doc.lineAt(head()).number;
+    const held = studio.documents.acquire(doc);
+    let session: TextSession | null = null;
+    held.opened.then(
+      (opened) => void (session = opened.session),
+      () => {},
+    );
     const tell = (act: Promise<void>) => void act.catch((problem: unknown) => studio.tell(problem));
     const ends = [
       showView(studio, doc, view),
@@ -229,6 +236,10 @@ function useHandle(doc: Doc, view: EditorView | null): void {
         complete: () => void startCompletion(view),
         find: () => void openSearchPanel(view),
         comment: () => void toggleComment(view),
+        undo: () => void session?.undo(),
+        redo: () => void session?.redo(),
+        mayUndo: () => !view.state.readOnly && (session?.canUndo ?? false),
+        mayRedo: () => !view.state.readOnly && (session?.canRedo ?? false),
         focus: () => view.focus(),
         line,
         word: () => {
@@ -237,6 +248,9 @@ function useHandle(doc: Doc, view: EditorView | null): void {
         },
       }),
     ];
-    return () => ends.forEach((end) => end());
+    return () => {
+      ends.forEach((end) => end());
+      held.release();
+    };
   }, [studio, doc, view]);
 }

@@ -76,4 +76,14 @@ export const formWords = {
   press: (button: string) => `Press ${button}`,
   tap: 'Tap',
   tapHelp: 'A knock on its body',
+  entryText: {
+    add: (what: string) => `${what} comes`,
+    remove: (what: string) => `${what} goes`,
+    move: (what: string) => `${what} moves`,
+    press: (what: string) => `${what} is pressed`,
+    release: (what: string) => `${what} is released`,
+    light: (what: string) => `${what} is switched`,
+    cut: (what: string) => `${what || 'the fleet'} is cut off`,
+    restore: (what: string) => `${what || 'the fleet'} is back`,
+  },
 };

@@ -13,7 +13,8 @@ import { FileForm } from './file_form';
 import { LiveForm } from './live_form';
 import { Swatch } from './thing_list';
 import { WorldForm } from './world_form';
-import { entryText, nameOfThing } from './words';
+import { entryText } from './entry_text';
+import { nameOfThing } from './words';
 import { formWords } from './form_words';
 import { keysShown } from '../../parts/keys_shown';
 

@@ -7,7 +7,7 @@ import { useDrives } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { useModel } from './desk';
-import { entryText } from './words';
+import { entryText } from './entry_text';
 import { formWords } from './form_words';
 
 /** What happens by itself in a world, in the order of time. */

@@ -1,7 +1,5 @@
-// How things, places and entries are said.
+// How things and places are said.
 
-import type { Json } from '../../../protocol/messages';
-import { entryOf, numberOf, tableAt, tableOf, textOf, verbs } from '../../../core/world/file';
 import { degrees, normalAngle, type Pose } from '../../../core/world/geometry';
 import type { WorldModel } from '../../../core/world/model';
 import type { Thing } from '../../../core/world/stage';
@@ -34,21 +32,6 @@ export function placeText(pose: Pose): string {
 /** "carbot: 0.80, 1.90 m, -63°", for those who listen. */
 export function spokenPlace(model: WorldModel, thing: Thing): string {
   return words.moved(nameOfThing(thing), placeText(model.poseOf(thing)));
-}
-
-export function entryText(file: Json, key: string): { t: string; what: string } {
-  const entry = entryOf(file, key);
-  const verb = verbs.find((one) => one === entry['do']);
-  const what =
-    textOf(entry['id']) ||
-    textOf(entry['button']) ||
-    textOf(tableAt(file, key)['id']) ||
-    textOf(tableOf(entry['object'])['kind']) ||
-    textOf(entry['robot']);
-  return {
-    t: `${numberOf(entry['t'], 0)} s`,
-    what: verb ? words.entryText[verb](what) : textOf(entry['do']),
-  };
 }
 
 /** What a command needs first. */

@@ -1,8 +1,8 @@
 // A tablet: what a finger does where a mouse would do it.
 import assert from 'node:assert/strict';
 import { makeProject, twoNodes } from './support/robots.mjs';
-import { boxOf, focused, gone, seen, test, until } from './support/studio.mjs';
-import { openWorld } from './support/world.mjs';
+import { boxOf, focused, gone, reads, seen, test, until } from './support/studio.mjs';
+import { handsIn, openWorld } from './support/world.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
 const tablet = { width: 1180, height: 820, touch: true };
@@ -32,6 +32,22 @@ async function swipe(page, way) {
   await touch('touchStart', way.slice(0, 1));
   for (const point of way.slice(1)) await touch('touchMove', [point]);
   await touch('touchEnd', []);
+  await session.detach();
+}
+
+/**
+ * A finger that goes down and stays until what it asked for is there.
+ * @param {Page} page
+ * @param {import('./support/studio.mjs').Locator} on
+ * @param {() => Promise<unknown>} meanwhile
+ */
+async function hold(page, on, meanwhile) {
+  const { x, y, width, height } = await boxOf(on);
+  const session = await page.context().newCDPSession(page);
+  const at = { x: x + width / 2, y: y + height / 2 };
+  await session.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [at] });
+  await meanwhile();
+  await session.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
   await session.detach();
 }
 
@@ -191,5 +207,74 @@ test(
     assert.equal(await page.getByRole('menu').count(), 0);
     await page.touchscreen.tap(robot.x, robot.y);
     await seen(page.getByRole('menuitem', { name: 'Why?' }));
+  },
+);
+
+const landscape = { width: 1024, height: 768, touch: true };
+
+test(
+  'a script that waits for a button of the robot is written, tried and taken back with a finger',
+  landscape,
+  async ({ page, button, editor }) => {
+    await button(/^New/).tap();
+    await button('Create').tap();
+    await seen(editor('thymio-II').getByText('button.forward', { exact: true }));
+    await button('Run').first().tap();
+    await seen(button(/Running/));
+    // Its buttons are offered where the robot is, once it was tapped.
+    const world = page.locator('[data-world]');
+    const { at, pose } = handsIn(world, [1.6, 1.2]);
+    const [x = 0, y = 0] = await pose('thymio');
+    const robot = await at(x, y);
+    await page.touchscreen.tap(robot.x, robot.y);
+    await button('Press forward').tap();
+    const row = page.getByRole('list', { name: 'Variables' }).getByRole('listitem');
+    await reads(row.filter({ hasText: /^motor\.left\.target/ }), /200/);
+    // A keyboard on the screen has no Ctrl+Z.
+    const text = editor('thymio-II');
+    const first = text.locator('.cm-line').first();
+    await first.tap();
+    await page.keyboard.insertText('x');
+    await reads(first, /x/);
+    await button('Undo in this text').tap();
+    await reads(first, '# Runs when the program starts.');
+    await button('Redo in this text').tap();
+    await reads(first, /x/);
+  },
+);
+
+test(
+  'a finger that stays on a button is told what it is, and presses nothing',
+  { ...landscape, words: ['--example', 'thymio'] },
+  async ({ page, layout, button }) => {
+    await layout('Script');
+    const bytecode = button('Bytecode beside the text');
+    await seen(bytecode);
+    await hold(page, bytecode, () =>
+      seen(page.getByRole('tooltip', { name: 'Bytecode beside the text' })),
+    );
+    await button('Upload').tap();
+    await gone(page.getByRole('tooltip'));
+    assert.equal(await bytecode.getAttribute('aria-pressed'), 'false');
+    await bytecode.tap();
+    await seen(page.getByRole('button', { name: 'Bytecode beside the text', pressed: true }));
+  },
+);
+
+test(
+  'nothing moves below the bar at the top when a run is paused',
+  { ...landscape, words: ['--example', 'follow-wall'] },
+  async ({ page, button }) => {
+    const bar = page.getByRole('banner');
+    await seen(page.getByRole('region', { name: 'Plan WallFollow, drawn' }));
+    const height = async () => (await boxOf(bar)).height;
+    const ready = await height();
+    await button('Run').first().tap();
+    await seen(button(/Running/));
+    const running = await height();
+    await button('Pause').first().tap();
+    await seen(button('Continue').first());
+    assert.deepEqual([running, await height()], [ready, ready]);
+    assert.ok(ready < 60, `it is ${ready} px high`);
   },
 );

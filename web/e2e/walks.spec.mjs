@@ -1,7 +1,7 @@
 // What newcomers met on their first walks: with keys alone, with a finger, in a window on its end.
 import assert from 'node:assert/strict';
 import { makeProject, twoNodes } from './support/robots.mjs';
-import { boxOf, focused, reads, seen, test, until } from './support/studio.mjs';
+import { boxOf, focused, gone, reads, seen, test, until } from './support/studio.mjs';
 /** @import { TestContext } from './support/studio.mjs' */
 
 const upright = { width: 820, height: 1180, touch: true };
@@ -76,7 +76,7 @@ test(
 
 test(
   'a narrow list of variables shows whole names; a tap on one offers to watch it',
-  { ...upright, words: ['--example', 'thymio'] },
+  { ...upright, height: 860, words: ['--example', 'thymio'] },
   async ({ page, layout, tab }) => {
     await layout('Script');
     const list = page.getByRole('list', { name: 'Variables' });
@@ -116,5 +116,71 @@ test(
     await layout('Script');
     await seen(tab('Variables'));
     assert.ok(!(await names()).includes('Palette'));
+  },
+);
+
+test(
+  'what Enter makes for an arrow is selected, and its form is shown',
+  { prepare: twoPlans },
+  async ({ page, layout, press, type }) => {
+    await layout('Draw');
+    const wait = page.getByRole('group', { name: /^wait, actor Wait/ });
+    await wait.getByRole('button', { name: /^Done leads to @terminate/ }).focus();
+    await press('Enter');
+    await focused(page.getByRole('textbox', { name: 'Actor or template' }));
+    await type('Log');
+    await press('Enter');
+    await focused(page.getByRole('group', { name: /^log, actor Log/ }));
+    const form = page.getByRole('region', { name: 'Properties' });
+    await seen(form.getByRole('heading', { name: 'log' }));
+  },
+);
+
+test(
+  'a tablet on its end shows the robot below the script that it runs',
+  { ...upright, words: ['--example', 'thymio'] },
+  async ({ page, layout, button }) => {
+    await layout('Script');
+    await button('Run').first().tap();
+    await seen(button(/Running/));
+    const [text, world] = [
+      await boxOf(page.locator('.cm-scroller')),
+      await boxOf(page.getByRole('application', { name: /^World/ })),
+    ];
+    assert.ok(text.y + text.height <= world.y && world.y + world.height <= upright.height);
+    assert.ok(world.width > 300 && world.height > 300, JSON.stringify(world));
+  },
+);
+
+test(
+  'a name that no variable has is refused where it is typed',
+  { prepare: nodes },
+  async (studio) => {
+    const { page, layout, command, type, press } = studio;
+    await layout('Script');
+    await command('Plot a variable');
+    await focused(page.getByRole('combobox', { name: 'node.variable' }));
+    await type('wheel');
+    await press('Enter');
+    await seen(page.getByRole('alert').getByText('Neither a node nor the running plan has'));
+    await press('Control+a');
+    await type('left.a');
+    await gone(page.getByRole('alert'));
+  },
+);
+
+test(
+  'a plot of a value that stays as it is begins with it',
+  { words: ['--example', 'thymio'] },
+  async ({ page, layout, press, button }) => {
+    await layout('Script');
+    await press('F5');
+    await seen(button(/Running/));
+    // Its value is shown already, and nothing changes it.
+    const row = page.getByRole('list', { name: 'Variables' }).getByRole('listitem');
+    const size = row.filter({ hasText: /^_productId/ });
+    await reads(size, /8/);
+    await button('Plot _productId').click();
+    await reads(page.getByRole('list', { name: 'Curves' }).getByRole('listitem'), /_productId.*8/s);
   },
 );

@@ -47,7 +47,7 @@ export function Bus() {
           {text.target.load} <b className="num">{load.toFixed(1)} %</b>
         </span>
       )}
-      <span className={lost > 0 ? 'is-lossy' : ''}>
+      <span className={lost > 0 ? 'is-lossy' : 'bus__whole'}>
         {text.target.lostFrames} <b className="num">{lost}</b>
       </span>
     </button>

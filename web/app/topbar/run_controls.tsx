@@ -47,12 +47,13 @@ export function RunControls() {
       {paused ? (
         <Button
           kind="primary"
+          tip={text.run.continue}
           keys="F5"
           disabled={!drives}
           icon={<IconPlayerPlay {...size} />}
           onClick={run('run.start')}
         >
-          {text.run.continue}
+          <span className="runbar__word">{text.run.continue}</span>
         </Button>
       ) : (
         <Button

@@ -33,8 +33,12 @@ constexpr size_t kConditionWordsMax = kTellMax;  // variables of nodes in it
 // ---- connection ----
 constexpr Duration kBrokerLostAfter = 5s;   // then a robot does what its project says
 constexpr Duration kNameAnswerWithin = 3s;  // who has a name answers within this
-constexpr int kKeepAliveSeconds = 5;        // a broker misses us after one and a half of it
-constexpr uint32_t kSessionSeconds = 10;    // a broker keeps what comes for us so long
+constexpr size_t kNameAskersMax = 256;      // who asked for a name that is to be certain first
+constexpr Duration kNameAskAgain = 10s;     // of one that stays out, to be known of
+constexpr Duration kNameWantedFor = 25s;    // it is said to whom a name is that was asked for
+constexpr Duration kNameSettles = 1s;     // of several that claim a name, all but one are out then
+constexpr int kKeepAliveSeconds = 5;      // a broker misses us after one and a half of it
+constexpr uint32_t kSessionSeconds = 10;  // a broker keeps what comes for us so long
 
 // ---- events ----
 constexpr int64_t kEventsASecond = 20;       // of a name, sent or heard; more are counted

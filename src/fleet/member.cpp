@@ -234,7 +234,7 @@ void Member::publish_state() {
                       .state = shown_.state,
                       .since = since_,
                       .actor = shown_.actor,
-                      .problems = shown_.problems,
+                      .problems = problems(),
                       .left_out = static_cast<int64_t>(left_out())}));
 }
 
@@ -281,8 +281,11 @@ Time Member::next_tick() const {
     Time next = Time::max();
     if (!alone_told_ && standing_ != Standing::Holding) next = apart_since_ + kBrokerLostAfter;
     if (standing_ == Standing::Asking) next = std::min(next, name_until_);
+    if (standing_ == Standing::Out) next = std::min(next, ask_again_at_);
     if (standing_ != Standing::Holding) return next;
     next = state_at_ + (state_news_ ? kStateEveryMin : kStateEveryMax);
+    if (!asked_by_.empty() && onlines_out_ == 0) return now_;
+    next = std::min({next, wanted_until_.value_or(next), settled_at_.value_or(next)});
     for (const auto& [place, telling] : telling_) {
         if (telling.news) next = std::min(next, telling.due);
     }

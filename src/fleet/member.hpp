@@ -130,6 +130,12 @@ private:
     void hear_answer(const Answer& answer);
     void ask_for_name();
     void claim();
+    void say_online();
+    void hear_rival(const Connection& said);
+    void answer_who_wants_it();
+    void tell_who_wants_it();
+    std::vector<std::string> problems() const;
+    void settle();
     void stay_out(const std::string& why);
     void tick_name();
     void tick_alone();
@@ -172,7 +178,11 @@ private:
     Time name_until_{};                 // Asking: when the question was long enough ago
     bool asked_ = false;                // our question came back: what was retained is known
     std::optional<Connection> holder_;  // who is said to have the name
-    bool ours_came_back_ = false;       // of Holding: our `online` is the last one
+    int onlines_out_ = 0;               // Holding: of ours, that have not come back yet
+    std::deque<std::string> asked_by_;  // Holding: instances that are to be answered
+    Time ask_again_at_{};               // Out: who has the name shall know that it is wanted
+    std::optional<Time> wanted_until_;  // Holding: somebody else wants the name
+    std::optional<Time> settled_at_;    // Holding: who claimed it before us says no more
 
     Outbox outbox_;
     int64_t numbers_ = 0;  // of events and states

@@ -8,7 +8,10 @@
 //   answer the question.
 // - Of two that claim at once, the one whose `online` the broker had last has the name: the other
 //   sees that one behind its own.
+// - Who stays out asks from time to time, so that whoever has the name can say that it is wanted.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "fleet/member.hpp"
 
@@ -17,6 +20,8 @@ namespace {
 
 constexpr const char* kName = "name";  // the question, and where it is answered
 constexpr const char* kOnline = "online";
+constexpr const char* kOwnName =
+    "Give each robot a name of its own (--robot, or \"name\" in its world)";
 
 }  // namespace
 
@@ -74,8 +79,8 @@ void Member::ask_for_name() {
 void Member::hear_question(const Ask& ask) {
     if (ask.instance != options_.instance) {
         if (standing_ != Standing::Holding) return;
-        const Answer answer{.id = ask.instance, .done = true, .instance = options_.instance};
-        return act(post_of(Kind::Answer, kName, answer));
+        if (asked_by_.size() >= kNameAskersMax) asked_by_.pop_front();
+        return asked_by_.push_back(ask.instance);
     }
     if (standing_ != Standing::Asking) return;
     asked_ = true;
@@ -88,12 +93,53 @@ void Member::hear_answer(const Answer& answer) {
     stay_out("another robot has this name, and answers");
 }
 
+// As soon as the name is certain: of a hundred that claim it at once each would answer all others,
+// and all others would hear it.
+void Member::answer_who_wants_it() {
+    if (standing_ != Standing::Holding || onlines_out_ > 0 || asked_by_.empty()) return;
+    tell_who_wants_it();
+    for (const std::string& instance : std::exchange(asked_by_, {})) {
+        act(post_of(Kind::Answer, kName,
+                    Answer{.id = instance, .done = true, .instance = options_.instance}));
+    }
+}
+
+// Both sides are told: who wants it stays out and says so, and a robot that works must not be taken
+// for the other one.
+void Member::tell_who_wants_it() {
+    if (!wanted_until_) {
+        state_news_ = true;
+        say("warning", fmt::format("fleet: another program wants the name \"{}\", too, and was "
+                                   "told to stay out. {}",
+                                   options_.robot, kOwnName));
+    }
+    wanted_until_ = now_ + kNameWantedFor;
+}
+
+// What is wrong with the robot stays in front.
+std::vector<std::string> Member::problems() const {
+    std::vector<std::string> problems = shown_.problems;
+    if (!wanted_until_) return problems;
+    problems.resize(std::min(problems.size(), kProblemsMax - 1));
+    problems.push_back(
+        fmt::format("another program wants the name \"{}\", too, and stays out", options_.robot));
+    return problems;
+}
+
+void Member::say_online() {
+    ++onlines_out_;
+    act(connection(kOnline));
+}
+
 void Member::claim() {
     standing_ = Standing::Holding;
-    ours_came_back_ = false;
+    onlines_out_ = 0;
+    asked_by_.clear();
+    wanted_until_.reset();
+    settled_at_.reset();
     alone_told_ = false;
     lost_told_.clear();
-    act(connection(kOnline));
+    say_online();
     act(Subscribe{filters_of_work()});
     publish_description();
     publish_version();
@@ -109,34 +155,57 @@ void Member::stay_out(const std::string& why) {
     early_.clear();
     if (standing_ == Standing::Holding) apart_since_ = now_;
     standing_ = Standing::Out;
+    ask_again_at_ = now_ + kNameAskAgain;
     say("error", fmt::format("fleet: \"{}\" of the fleet \"{}\": {}; this one stays out of the "
-                             "fleet. Give it a name of its own (--robot)",
-                             options_.robot, options_.fleet, why));
+                             "fleet until the name is free. {}",
+                             options_.robot, options_.fleet, why, kOwnName));
 }
 
 void Member::hear_connection(const Connection& said) {
     if (said.instance != options_.instance) return hear_connection_of_other(said);
     if (standing_ != Standing::Holding) return;
     // A will of ours that came late: an earlier connection of ours was missed.
-    if (said.state != kOnline) return act(connection(kOnline));
-    ours_came_back_ = true;
+    if (said.state != kOnline) return say_online();
+    onlines_out_ = std::max(onlines_out_ - 1, 0);
 }
 
 void Member::hear_connection_of_other(const Connection& said) {
+    if (standing_ == Standing::Holding) return hear_rival(said);
     const bool online = said.state == kOnline;
-    if (standing_ == Standing::Holding) {
-        // Its last words stand where ours did; what it claimed before ours counts no more.
-        if (!online) return act(connection(kOnline));
-        if (ours_came_back_) stay_out("another robot has claimed this name behind this one");
-        return;
-    }
     holder_.reset();
     if (online) holder_ = said;
     if (!online && standing_ == Standing::Out) return ask_for_name();
     if (!online && standing_ == Standing::Asking && asked_) claim();
 }
 
+// What it claimed counts if no `online` of ours is on its way, which the broker has behind it.
+void Member::hear_rival(const Connection& said) {
+    // Its last words stand where ours did.
+    if (said.state != kOnline) return say_online();
+    if (onlines_out_ == 0) return stay_out("another robot has claimed this name behind this one");
+    settled_at_ = now_ + kNameSettles;
+}
+
+// Until it heard that the name is ours, another one told of itself below it.
+void Member::settle() {
+    settled_at_.reset();
+    publish_description();
+    publish_version();
+    for (auto& [place, telling] : telling_) telling.news = true;
+    state_news_ = true;
+}
+
 void Member::tick_name() {
+    answer_who_wants_it();
+    if (standing_ == Standing::Holding && wanted_until_ && now_ >= *wanted_until_) {
+        wanted_until_.reset();
+        state_news_ = true;
+    }
+    if (standing_ == Standing::Holding && settled_at_ && now_ >= *settled_at_) settle();
+    if (standing_ == Standing::Out && now_ >= ask_again_at_) {
+        ask_again_at_ = now_ + kNameAskAgain;
+        act(post_of(Kind::Ask, kName, Ask{options_.instance}));
+    }
     if (standing_ != Standing::Asking || now_ < name_until_) return;
     if (asked_) return claim();  // who was there does not answer
     say("warning", fmt::format("fleet: the broker does not pass on what this robot says "

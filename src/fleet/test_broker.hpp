@@ -45,6 +45,12 @@ public:
         }
     }
 
+    // What is retained on that topic; empty: nothing.
+    std::string retained(const std::string& topic) const {
+        const auto found = retained_.find(topic);
+        return found == retained_.end() ? "" : found->second.payload;
+    }
+
     Time now{};
 
 private:

@@ -1,6 +1,8 @@
 // Members together, over a broker in memory.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fleet/limits.hpp"
 #include "fleet/test_broker.hpp"
 
@@ -73,6 +75,36 @@ TEST(Together, OfTwoThatComeAtOnceOneHasTheName) {
     const int holding = (first.member.standing() == Standing::Holding ? 1 : 0) +
                         (second.member.standing() == Standing::Holding ? 1 : 0);
     EXPECT_EQ(holding, 1);
+}
+
+// Each but the last one believes for a moment that the name is its own.
+TEST(Together, OfAHundredOfOneNameOneIsInTheFleetAndIsTheOneThatIsDescribed) {
+    TestBroker broker;
+    std::vector<Client*> all;
+    for (int i = 0; i < 100; ++i) {
+        MemberOptions options = robot("r1", std::to_string(i), i);
+        options.description.studio = "http://" + std::to_string(i);
+        all.push_back(&broker.add(std::move(options)));
+        broker.connect(*all.back());
+    }
+    const auto holders = [&] {
+        broker.now += kNameAnswerWithin;
+        broker.run();
+        std::vector<Client*> list;
+        for (Client* one : all) {
+            if (one->member.standing() == Standing::Holding) list.push_back(one);
+        }
+        return list;
+    };
+    for (int gone = 0; gone < 3; ++gone) {
+        const auto now = holders();
+        ASSERT_EQ(now.size(), 1u) << gone;
+        const auto which = std::find(all.begin(), all.end(), now[0]) - all.begin();
+        EXPECT_NE(broker.retained("vagus/1/lab/robot/r1/description")
+                      .find("\"http://" + std::to_string(which) + "\""),
+                  std::string::npos);
+        broker.cut(*now[0]);
+    }
 }
 
 TEST(Together, WhatHappenedWhileTheLinkWasCutComesOnce) {

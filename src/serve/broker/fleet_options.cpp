@@ -13,6 +13,10 @@ constexpr size_t kInstanceBytes = 8;
 
 }  // namespace
 
+std::string robot_name(const FleetOptions& options) {
+    return options.robot.empty() ? host_name() : options.robot;
+}
+
 Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client) {
     LinkOptions link{.target = TRY(fleet::parse_fleet_target(options.target)), .client = client};
     for (const std::string& file : {options.ca, options.certificate, options.key}) {

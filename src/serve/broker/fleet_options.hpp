@@ -18,6 +18,9 @@ struct FleetOptions {
     std::string ca = {}, certificate = {}, key = {}, login = {};  // files
 };
 
+// The name of the robot that has these options.
+std::string robot_name(const FleetOptions& options);
+
 // How to reach the broker, of whatever asks. `client` is the id.
 Result<LinkOptions> link_options(const FleetOptions& options, const std::string& client);
 // The same for somebody who belongs to no project: the target must name the fleet.

@@ -40,7 +40,7 @@ Result<std::unique_ptr<FleetRobot>> FleetRobot::join(Workbench& bench, const Fle
     const OpenedProject& project = bench.project() ? *bench.project() : none;
     auto [instance, epoch] = member_identity();
     fleet::MemberOptions member{
-        .robot = options.robot.empty() ? host_name() : options.robot,
+        .robot = robot_name(options),
         .instance = std::move(instance),
         .epoch = epoch,
         .project = project.fleet,

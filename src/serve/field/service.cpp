@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/time.hpp"
+#include "fleet/topic.hpp"
 #include "net/service_manager.hpp"
 #include "serve/field/check.hpp"
 #include "serve/field/deploy_commands.hpp"
@@ -73,9 +74,21 @@ private:
         declare_deploy_commands(server_.desk(), versions_, deployments_);
         TRY(check_folder());
         TRY(deployments_.boot(options_.start, server_.links().now()));
+        adopt_want();
         tell_address();
         TRY(join_fleet());
         return Status::done();
+    }
+
+    fs::path own_folder() const { return fs::absolute(options_.project) / ".vagus"; }
+
+    // Earlier versions kept one file for all robots of a folder. It is about the one of them that
+    // may be given versions.
+    void adopt_want() {
+        const fs::path before = own_folder() / "want.json";
+        std::error_code failed;
+        const bool is_there = !options_.fleet.target.empty() && fs::is_regular_file(before, failed);
+        if (is_there && versions_.hold().ok()) wanted_.adopt(before.string());
     }
 
     Status join_fleet() {
@@ -139,7 +152,8 @@ private:
         const auto fetched = [authority = options_.fleet.ca](const std::string& address) {
             return fetch(address, authority, kPackedBytesMax);
         };
-        return {.file = (fs::absolute(options_.project) / ".vagus" / "want.json").string(),
+        const std::string file = fleet::escape(robot_name(options_.fleet)) + ".json";
+        return {.file = (own_folder() / "want" / file).string(),
                 .fetch = fetched,
                 .work = [this](Worker::Work work) { fetcher_.post(std::move(work)); },
                 .tell =

@@ -48,6 +48,20 @@ std::optional<fleet::Version> read_last(const std::string& file) {
 Wanted::Wanted(Deployments& deployments, Callbacks calls)
     : deployments_(deployments), call_(std::move(calls)), last_(read_last(call_.file)) {}
 
+void Wanted::adopt(const std::string& file) {
+    std::error_code failed;
+    if (last_) {
+        std::filesystem::remove(file, failed);
+        return;
+    }
+    last_ = read_last(file);
+    std::filesystem::create_directories(std::filesystem::path(call_.file).parent_path(), failed);
+    std::filesystem::rename(file, call_.file, failed);
+    if (!failed) return;
+    call_.log("warning", fmt::format("fleet: {} cannot be renamed to {}: {}", file, call_.file,
+                                     failed.message()));
+}
+
 void Wanted::want(const fleet::Want& want) {
     const bool is_under_way = under_way_ && under_way_->number == want.number;
     const bool is_done =

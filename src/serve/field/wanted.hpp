@@ -1,9 +1,10 @@
 // The version that a fleet wants of this robot (docs/fleet.md, "Another version for many"):
 // fetched, checked against its hash, put in force as one that `vagus deploy` sends, and told. Each
 // roll-out has a number, and is done once, also if the robot was started again meanwhile: what came
-// of the last one is in PROJECT/.vagus/want.json, and that going back was begun. A project with a
-// condition of its own is watched from its start until that was true for long enough, and each
-// change of what it lacks is told.
+// of the last one is in PROJECT/.vagus/want/ROBOT.json, and that going back was begun. It is a file
+// for each robot: two may be served from one folder, and each is told something else. A project
+// with a condition of its own is watched from its start until that was true for long enough, and
+// each change of what it lacks is told.
 //
 //     Wanted wanted(deployments, {.file = …, .fetch = …, .work = worker.poster(), .tell = …});
 //     wanted.want(want);   // as often as it comes
@@ -42,6 +43,9 @@ public:
     // `deployments` is borrowed.
     Wanted(Deployments& deployments, Callbacks calls);
 
+    // What an earlier version has remembered in that file, for whichever robot: it is that of this
+    // one now, unless it has one of its own.
+    void adopt(const std::string& file);
     void want(const fleet::Want& want);
     void tick(Time now);
     Time next_tick() const;

@@ -23,7 +23,7 @@ protected:
     }
 
     Wanted::Callbacks callbacks() {
-        return {.file = (fs::path(project) / ".vagus" / "want.json").string(),
+        return {.file = (fs::path(project) / ".vagus" / "want" / "r1.json").string(),
                 .fetch = [this](const std::string& address) -> Result<std::string> {
                     ++fetches;
                     if (while_fetched) while_fetched();
@@ -176,11 +176,46 @@ TEST_F(WantedTest, BackIsRefusedAgainWhereNothingIsBefore) {
     }
 }
 
+// One file for both let the refusal of one stand for the outcome of the other.
+TEST_F(WantedTest, EachRobotOfAFolderRemembersItsOwn) {
+    wants(serve(7, "one"));
+    Wanted::Callbacks of_another = callbacks();
+    of_another.file = (fs::path(project) / ".vagus" / "want" / "r2.json").string();
+    Wanted another(deployments, of_another);
+    EXPECT_FALSE(another.last());
+    another.want({8, "", "", true});
+    EXPECT_EQ(told.back(), "taken");
+    Wanted again(deployments, callbacks());
+    ASSERT_TRUE(again.last());
+    EXPECT_EQ(again.last()->number, 7);
+    EXPECT_EQ(again.last()->result, "started");
+}
+
+TEST_F(WantedTest, WhatAnEarlierVersionRememberedIsThatOfTheFirst) {
+    const fs::path before = fs::path(project) / ".vagus" / "want.json";
+    const auto write = [&](int64_t number) {
+        const fleet::Version version{number, "", "refused", "a reason"};
+        EXPECT_TRUE(write_file(before.string(), fleet::payload_of(version)).ok());
+    };
+    write(7);
+    wanted.adopt(before.string());
+    ASSERT_TRUE(wanted.last());
+    EXPECT_EQ(wanted.last()->number, 7);
+    EXPECT_FALSE(fs::exists(before));
+    Wanted again(deployments, callbacks());
+    ASSERT_TRUE(again.last());
+    EXPECT_EQ(again.last()->why, "a reason");
+    write(6);
+    again.adopt(before.string());
+    EXPECT_EQ(again.last()->number, 7);
+    EXPECT_FALSE(fs::exists(before));
+}
+
 // It went back to version 0, and once more when it was started again.
 TEST_F(WantedTest, BackIsNotDoneWhereItCannotBeRemembered) {
     wants(serve(7, "one"));
     wants(serve(8, "two"));
-    const fs::path file = fs::path(project) / ".vagus" / "want.json";
+    const fs::path file = fs::path(project) / ".vagus" / "want" / "r1.json";
     fs::remove(file);
     fs::create_directories(file);  // what stands for a full disk
     wants({9, "", "", true});

@@ -13,7 +13,7 @@ void KeeperClient::hear(const LinkEvent& event, Time now) {
     const auto* received = std::get_if<Received>(&event);
     if (received == nullptr) return;
     const Message& message = received->heard.message;
-    if (const auto* beat = std::get_if<keeper::Beat>(&message)) leases_.heard_of(beat->epoch);
+    if (const auto* beat = std::get_if<keeper::Beat>(&message)) leases_.heard_of(beat->epoch, now);
     const auto* reply = std::get_if<Reply>(&message);
     const bool ours = reply != nullptr && received->heard.topic.robot == options_.robot &&
                       reply->epoch == options_.epoch;

@@ -123,7 +123,7 @@ private:
                 last_epoch_ = std::max(last_epoch_, beat->epoch);
                 for (Process& other : processes_)
                     if (other.connected) tell(other, *beat);
-                for (Robot& robot : robots_) robot.leases.heard_of(beat->epoch);
+                for (Robot& robot : robots_) robot.leases.heard_of(beat->epoch, now_);
             } else if (const auto* publish = std::get_if<Publish>(&action)) {
                 retain(process, *publish);
             } else if (const auto* answer = std::get_if<Answer>(&action)) {

@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "keeper/keeper.hpp"
+
 namespace vagus::keeper {
 
 namespace {
+
+// By the clock of whoever gave it, which may be slower.
+constexpr Duration kKeeperForgotten = kLeaseMax + kLeaseMax / 50;
 
 const Lease* lease_in(const Reply& reply) {
     if (!reply.record) return nullptr;
@@ -62,14 +67,18 @@ std::vector<Ask> Leases::tick(Time now) {
     return asks;
 }
 
-void Leases::heard_of(uint64_t keeper_epoch) {
-    keeper_epoch_ = std::max(keeper_epoch_, keeper_epoch);
+void Leases::heard_of(uint64_t keeper_epoch, Time now) {
+    const bool is_forgotten = now >= keeper_heard_ + kKeeperForgotten;
+    if (keeper_epoch < keeper_epoch_ && !is_forgotten) return;
+    keeper_epoch_ = keeper_epoch;
+    keeper_heard_ = now;
 }
 
 void Leases::hear(uint64_t number, const Reply& reply, Time now) {
     const auto found = questions_.find(number);
-    if (found == questions_.end() || reply.epoch < keeper_epoch_) return;
-    heard_of(reply.epoch);
+    if (found == questions_.end()) return;
+    heard_of(reply.epoch, now);
+    if (reply.epoch < keeper_epoch_) return;
     const Question question = std::move(found->second);
     questions_.erase(found);
     const Lease* lease = lease_in(reply);

@@ -50,8 +50,10 @@ public:
     // A reply came. The end of a question is told by take_over(); a reply that comes twice, or from
     // a keeper that was superseded, tells nothing.
     void hear(uint64_t number, const Reply& reply, Time now);
-    // A beat of that keeper was heard.
-    void heard_of(uint64_t keeper_epoch);
+    // A beat of that keeper was heard. One of a lower epoch than that of an earlier keeper counts
+    // when nothing was heard of that one for longer than it can have given a lease: a broker that
+    // has lost what it kept, and a clock of the calendar that is wrong, make such a keeper.
+    void heard_of(uint64_t keeper_epoch, Time now);
 
     std::vector<Over> take_over();
     // Leases that have ended since the last call, each once, and not by finish or release.
@@ -79,6 +81,7 @@ private:
 
     uint64_t questions_asked_ = 0;
     uint64_t keeper_epoch_ = 0;
+    Time keeper_heard_{};
     std::map<uint64_t, Question> questions_;
     std::map<Term, Held> held_;
     std::vector<Over> over_;

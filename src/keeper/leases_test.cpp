@@ -73,11 +73,27 @@ TEST(Leases, ARenewalThatIsRefusedEndsTheLeaseAtOnce) {
 TEST(Leases, FromASupersededKeeperNothingIsTaken) {
     Leases leases;
     const uint64_t number = leases.ask(Take{"q", 9s}, 0s);
-    leases.heard_of(2);
+    leases.heard_of(2, 0s);
     leases.hear(number, granted({1, 2}, 9s, 1), 1s);
     EXPECT_FALSE(leases.holds({1, 2}, 1s));
     leases.hear(number, granted({2, 1}, 9s, 2), 1s);
     EXPECT_TRUE(leases.holds({2, 1}, 1s));
+}
+
+// Its epoch is the calendar's where the broker has lost what it kept, and that clock may be wrong.
+TEST(Leases, ALowerKeeperCountsWhenTheHigherOneIsGoneForLongerThanTheLongestLease) {
+    Leases leases;
+    const uint64_t first = leases.ask(Take{"q", 9s}, 0s);
+    leases.hear(first, granted({4'000'000'000, 1}, 9s, 4'000'000'000), 0s);
+    leases.heard_of(30, 61'199ms);
+    leases.heard_of(4'000'000'000, 61'199ms);
+    leases.heard_of(30, 122'398ms);
+    uint64_t number = leases.ask(Take{"q", 9s}, 122'398ms);
+    leases.hear(number, granted({30, 1}, 9s, 30), 122'398ms);
+    EXPECT_FALSE(leases.holds({30, 1}, 122'398ms));
+    leases.heard_of(30, 122'399ms);
+    leases.hear(number, granted({30, 1}, 9s, 30), 122'399ms);
+    EXPECT_TRUE(leases.holds({30, 1}, 122'399ms));
 }
 
 TEST(Leases, WhatIsFinishedIsNoLongerHeldNorToldAsEnded) {

@@ -36,6 +36,7 @@ void Operator::on(const Connected&) {
     }
     if (options_.events) filters.push_back({filter_of(options_.fleet, Kind::Event)});
     if (options_.variables) filters.push_back({filter_of(options_.fleet, Kind::Variable)});
+    if (options_.versions) filters.push_back({filter_of(options_.fleet, Kind::Version)});
     filters.push_back({filter_of(options_.fleet, Kind::Answer)});
     filters.push_back({filter_of_commands(options_.fleet, options_.name)});
     actions_.push_back(Subscribe{std::move(filters)});
@@ -52,13 +53,14 @@ void Operator::send_echo() {
 
 // What was heard before says nothing of now.
 void Operator::on(const Lost&) {
-    connected_ = knows_all_ = false;
+    connected_ = knows_all_ = answered_ = false;
     for (auto& [name, robot] : robots_) robot.state_at.reset();
 }
 
 void Operator::on(const Acknowledged& acknowledged) {
     if (acknowledged.number == kEchoNumber) {
         refused_ = acknowledged.refused;
+        answered_ = true;
         return;
     }
     const auto found = given_.find(acknowledged.number);
@@ -88,11 +90,12 @@ void Operator::hear_robot(const Topic& topic, const Message& message, bool retai
     if (topic.robot.empty()) return;
     if (robots_.size() >= kRobotsMax && !robots_.contains(topic.robot)) return;
     const bool tells = topic.kind == Kind::Connection || topic.kind == Kind::Description ||
-                       topic.kind == Kind::State;
+                       topic.kind == Kind::State || topic.kind == Kind::Version;
     if (!tells) return;
     Known& robot = robots_[topic.robot];
     if (const auto* one = std::get_if<Connection>(&message)) robot.connection = *one;
     if (const auto* one = std::get_if<Description>(&message)) robot.description = *one;
+    if (const auto* one = std::get_if<Version>(&message)) robot.version = *one;
     if (const auto* one = std::get_if<State>(&message)) {
         robot.state = *one;
         robot.state_at.reset();

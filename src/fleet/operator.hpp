@@ -28,7 +28,8 @@ struct Known {
     std::optional<Connection> connection = {};
     std::optional<Description> description = {};
     std::optional<State> state = {};
-    std::optional<Time> state_at = {};  // when it came; nothing: it was retained
+    std::optional<Version> version = {};  // if the operator asks for versions
+    std::optional<Time> state_at = {};    // when it came; nothing: it was retained
 };
 
 // Whom an order is for: all, those of a group, or robots by their names.
@@ -58,6 +59,7 @@ public:
         std::string name = {};   // unlike that of any other operator, and of any robot
         bool events = false;     // events are of interest
         bool variables = false;  // so are variables
+        bool versions = false;   // what came of roll-outs
     };
     explicit Operator(Options options) : options_(std::move(options)) {}
 
@@ -91,6 +93,8 @@ public:
     void end(OrderNumber number) { given_.erase(number); }
     // Why nothing is known: the broker does not pass on what this operator says.
     const std::string& refused() const { return refused_; }
+    // The broker has said, since the connection was made, whether it passes that on.
+    bool is_answered() const { return answered_; }
 
 private:
     struct Asked {
@@ -126,7 +130,7 @@ private:
     const Options options_;
     std::vector<OperatorAction> actions_;
     Time now_{};
-    bool connected_ = false, knows_all_ = false;
+    bool connected_ = false, knows_all_ = false, answered_ = false;
     Time echo_at_{};
     std::string refused_;
     std::map<std::string, Known> robots_;

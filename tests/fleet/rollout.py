@@ -58,6 +58,32 @@ class Rollout(Versions):
         self.assertIn("2 of 2 robots: well", done.stdout)
         self.assertRegex(self.edition("r2"), r'r2: not done: .*edition')
 
+    def test_what_is_taken_back_is_one_roll_out(self):
+        """A robot that did not get it would lose the version that it had before."""
+        self.two_robots()
+        self.assertEqual(self.deploy("all", "--project", self.version()).returncode, 0)
+        self.assertEqual(self.deploy("r1", "--project", self.version(script="var edition = 3\n" + SCRIPT)).returncode, 0)
+        done = self.desk("deploy", "all", "--rollback")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"versions of 2 roll-outs, and nothing was changed: that of r[12]; that of r[12]\. Name those")
+        self.assertEqual(self.desk("deploy", "r1", "--rollback").returncode, 0)
+        self.is_told("r1", "thymio-II.edition", 2)
+        done = self.desk("deploy", "all", "--rollback")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertRegex(done.stdout, r"(?s)^r1: as it was: no version of a roll-out is in force there.*r2: well.*1 of 1 robots: well")
+        self.is_told("r1", "thymio-II.edition", 2)
+        done = self.desk("deploy", "all", "--rollback")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("there is nothing to take back, and nothing was changed", done.stdout)
+
+    def test_a_login_that_may_not_is_told_so(self):
+        self.broker("r1")
+        self.joined("r1")
+        self.wait_state("r1", "running")
+        done = self.desk(*self.words("r1", "--project", self.version()), by="looker")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r"(?i)the broker does not pass it on: not authori[sz]ed; use the --login of an operator")
+
     def test_a_robot_says_the_name_of_the_project_that_it_runs(self):
         self.two_robots()
 

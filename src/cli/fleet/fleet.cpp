@@ -241,7 +241,7 @@ int forget(FleetSession& session, const FleetCall& call) {
     session.wait_until([&] { return robots.contains(call.robot); }, wait_of(call));
     const auto found = robots.find(call.robot);
     if (found == robots.end()) {
-        if (!session.trouble().empty()) return complain(session.trouble());
+        if (!session.is_connected()) return complain(session.why_unknown(wait_of(call)));
         return complain("the broker knows no robot \"" + visible(call.robot) + "\"");
     }
     if (fleet::Operator::is_online(found->second)) {
@@ -406,7 +406,7 @@ void add_deploy(CLI::App& app, const SharedCall& call, int& exit_code) {
                                        "which version? Name its folder, or --rollback");
         }
     });
-    acts(verb, call, exit_code, deploy);
+    acts(verb, call, exit_code, deploy, {.versions = true});
 }
 
 struct PlainVerb {

@@ -1,5 +1,7 @@
 #include "cli/fleet/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -35,6 +37,7 @@ Result<std::unique_ptr<FleetSession>> FleetSession::open(const FleetCall& call,
     net::watch_for_end();
     std::unique_ptr<FleetSession> session(new FleetSession());
     session->fleet_ = options.fleet;
+    session->target_ = to_string(link.target);
     session->desk_ = std::make_unique<fleet::Operator>(std::move(options));
     const auto wake = [raw = session.get()] { raw->bell_.ring(); };
     session->link_ = std::make_unique<serve::MosquittoLink>(std::move(link), wake);
@@ -87,10 +90,34 @@ bool FleetSession::wait_until(const std::function<bool()>& holds, Duration withi
 
 Status FleetSession::know_all(Duration within) {
     if (wait_until([this] { return desk_->knows_all(); }, within)) return Status::done();
-    return Error{Code::Unavailable,
-                 lost_.empty() ? "the broker does not pass on what this user says; look at its "
-                                 "access list, or name another --login"
-                               : lost_};
+    return Error{Code::Unavailable, why_unknown(within)};
+}
+
+// A program that was stopped (SIGSTOP), or is no broker, takes a connection and says nothing.
+std::string FleetSession::why_unknown(Duration waited) const {
+    if (!lost_.empty()) return lost_;
+    if (net::end_asked()) return fmt::format("ended before {} answered", target_);
+    if (!was_connected_) {
+        return fmt::format(
+            "no connection to {}: it did not answer within {} s; is the broker "
+            "stopped, or something else at that port?",
+            target_, seconds_of(waited));
+    }
+    if (!desk_->refused().empty()) {
+        return fmt::format(
+            "the broker does not pass on what this user says: {}; name another "
+            "--login",
+            desk_->refused());
+    }
+    if (!desk_->is_answered()) {
+        return fmt::format(
+            "the broker of {} took the connection, and has said nothing more "
+            "within {} s; is it stopped, or the link too slow? --wait gives it more "
+            "time",
+            target_, seconds_of(waited));
+    }
+    return "the broker does not pass on what this user says; look at its access list, or name "
+           "another --login";
 }
 
 }  // namespace vagus::cli

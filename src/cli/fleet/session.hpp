@@ -54,15 +54,16 @@ public:
     void publish(const fleet::Post& post) { link_->publish(post); }
     void subscribe(const std::vector<fleet::Filter>& filters) { link_->subscribe(filters); }
     Duration now() const;
-    // Why there is no connection; empty: there is one.
-    const std::string& trouble() const { return lost_; }
+    // Why nothing is known of the fleet after that time.
+    std::string why_unknown(Duration waited) const;
+    bool is_connected() const { return was_connected_ && lost_.empty(); }
 
 private:
     FleetSession() = default;
     void turn();
     void note(const fleet::LinkEvent& event);
 
-    std::string fleet_;
+    std::string fleet_, target_;
     std::unique_ptr<fleet::Operator> desk_;
     std::string lost_;
     bool was_connected_ = false;

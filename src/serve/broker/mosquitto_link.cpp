@@ -51,6 +51,10 @@ private:
 };
 
 std::string sentence_of(int result) {
+    // The library has no word for it.
+    if (result == MOSQ_ERR_KEEPALIVE) {
+        return fmt::format("it has not answered for {} s", fleet::kKeepAliveSeconds);
+    }
     return result == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(result);
 }
 
@@ -58,7 +62,9 @@ std::string sentence_of(int result) {
 // alone, and not what is wrong with it.
 constexpr std::string_view kNotAccepted = "verif";  // certificate verify, host name verification
 
-std::string sentence_of_tls(const LinkOptions& options, bool not_accepted) {
+// A broker that is known may be ended, or its link cut, at that moment, too.
+std::string sentence_of_tls(const LinkOptions& options, bool not_accepted, bool is_known) {
+    if (!not_accepted && is_known) return "the connection ended before TLS began";
     if (!not_accepted) {
         return fmt::format(
             "what answers at port {} does not speak TLS; does the broker want "
@@ -101,6 +107,8 @@ public:
     void run();
     void give(fleet::LinkEvent event);
     const LinkOptions& options() const { return options_; }
+    // There was a connection before: what answers there is a broker.
+    bool is_known() const { return is_known_; }
 
 private:
     bool run_session();
@@ -111,6 +119,7 @@ private:
     const LinkOptions options_;
     int signal_ = -1;  // eventfd: there are orders, or it ends
     std::atomic<uint64_t> dropped_ = 0;
+    bool is_known_ = false;  // of the thread
 
     std::mutex guard_;  // of all below
     std::condition_variable ended_;
@@ -231,14 +240,16 @@ private:
         return false;
     }
     std::string why_of(int result) const {
-        if (result == MOSQ_ERR_TLS) return sentence_of_tls(link_.options(), not_accepted_);
-        if (result == MOSQ_ERR_PROTOCOL && !connected_) {
+        if (result == MOSQ_ERR_TLS)
+            return sentence_of_tls(link_.options(), not_accepted_, link_.is_known());
+        const bool is_strange = !connected_ && !link_.is_known();
+        if (result == MOSQ_ERR_PROTOCOL && is_strange) {
             return fmt::format(
                 "what answers at port {} does not speak MQTT; is that the port for "
                 "WebSockets? Robots and this program need the other one, as 8883",
                 link_.options().target.port);
         }
-        const bool maybe_tls = result == MOSQ_ERR_CONN_LOST && !connected_;
+        const bool maybe_tls = result == MOSQ_ERR_CONN_LOST && is_strange;
         return sentence_of(result) + (maybe_tls && !link_.options().target.tls
                                           ? " Does the broker want TLS? Then write mqtts://"
                                           : "");
@@ -264,8 +275,10 @@ private:
         if (code == MOSQ_ERR_SUCCESS) {
             session.refused_ = "the broker has ended the connection";
         } else {
-            session.refused_ =
-                code >= kFirstFailure ? mosquitto_reason_string(code) : session.why_of(code);
+            session.refused_ = code >= kFirstFailure
+                                   ? fmt::format("the broker has ended the connection: {}",
+                                                 mosquitto_reason_string(code))
+                                   : session.why_of(code);
         }
     }
     static void on_log(mosquitto*, void* self, int level, const char* text) {
@@ -320,7 +333,7 @@ std::vector<fleet::LinkEvent> MosquittoLink::Inside::take() {
 
 void MosquittoLink::Inside::give(fleet::LinkEvent event) {
     const std::lock_guard lock(guard_);
-    if (std::get_if<fleet::Connected>(&event)) connected_ = true;
+    if (std::get_if<fleet::Connected>(&event)) connected_ = is_known_ = true;
     if (inbox_.size() >= kLinkInboxMax && std::get_if<fleet::Received>(&event)) {
         ++dropped_;
         return;

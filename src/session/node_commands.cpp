@@ -86,9 +86,8 @@ std::string NodeCommands::why_not_started() const {
     if (!mistakes.empty()) return text_of(mistakes.front());
     const std::vector<std::string> missing = session_.without_script();
     if (missing.empty()) return "";
-    return "without the script that is meant for them: " +
-           list_of({missing.begin(), missing.end()}) +
-           "; a node that is away, or was told to stop meanwhile, gets none";
+    return "nothing started on " + list_of({missing.begin(), missing.end()}) +
+           ": a node that is away, or was told to stop meanwhile, gets no script";
 }
 
 // ---- pause and continue ----

@@ -149,7 +149,7 @@ TEST_F(NodeCommandsTest, ANodeThatIsAwayIsSilentAndNeverAtRest) {
     EXPECT_EQ(report_->front().state, StopNode::State::Silent);
     commands_->start(told());
     pass(6s);
-    EXPECT_THAT(why_.value_or(""), HasSubstr("without the script that is meant for them: alice"));
+    EXPECT_THAT(why_.value_or(""), HasSubstr("nothing started on alice: a node that is away"));
 }
 
 TEST_F(NodeCommandsTest, WhatIsWrongWithAVariableIsTold) {

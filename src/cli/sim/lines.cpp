@@ -125,10 +125,10 @@ std::string SimLines::summary() {
         for (const session::NodeState& node : session.nodes()) {
             if (!node.fault.empty()) {
                 stopped.insert(node.robot.number);
-            } else if (node.has_script && node.state != debug::ProgramState::Stopped) {
+            } else if (node.has_script && node.state == debug::ProgramState::Running) {
                 running.insert(node.robot.number);
             } else {
-                // It has none, or somebody has stopped it.
+                // It has none, or somebody has paused or stopped it.
             }
         }
     });

@@ -12,6 +12,7 @@
 #include "serve/target/bus_carrier.hpp"
 #include "serve/target/stopping.hpp"
 #include "serve/workbench/opened.hpp"
+#include "session/stop_node_name.hpp"
 
 namespace vagus::serve {
 
@@ -70,8 +71,8 @@ Status judge(const StopReport& report, const std::string& target) {
     std::string missing;
     for (const StopNode& node : report.nodes) {
         if (node.state == StopNode::State::Stopped) continue;
-        missing += fmt::format("{}node {} ({}): {}", missing.empty() ? "" : ", ", node.node,
-                               node.name, word_of(node.state));
+        missing += fmt::format("{}{}: {}", missing.empty() ? "" : ", ",
+                               session::number_and_name(node), word_of(node.state));
     }
     if (missing.empty()) return Status::done();
     return Error{Code::Unavailable, target + ": not stopped: " + missing};

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "serve/life/life.hpp"
+#include "session/stop_node_name.hpp"
 
 namespace vagus::serve {
 
@@ -29,9 +30,9 @@ bool may_move(const StopNode& node) {
 std::string not_at_rest(const StopNode& node) {
     const bool moves = node.state == StopNode::State::Moving;
     return fmt::format(
-        "node {} ({}) {}, so nothing was started. Look after the robot, then run it "
+        "{} {}, so nothing was started. Look after the robot, then run it "
         "again",
-        node.node, node.name, moves ? "did not come to rest" : "did not answer Stop");
+        session::number_and_name(node), moves ? "did not come to rest" : "did not answer Stop");
 }
 
 }  // namespace

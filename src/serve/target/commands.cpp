@@ -5,6 +5,7 @@
 
 #include "debug/condition.hpp"
 #include "serve/json.hpp"
+#include "serve/target/shared_id.hpp"
 #include "serve/target/target.hpp"
 #include "session/driving.hpp"
 
@@ -140,6 +141,11 @@ std::vector<std::string> Target::problems() const {
         const std::string place =
             known.fault_line > 0 ? fmt::format(" at line {}", known.fault_line) : "";
         problems.push_back(fmt::format("{}{}: {}", name_of(node), place, known.fault));
+    }
+    if (!network_) return problems;
+    for (const debug::NodeId node : network_->nodes()) {
+        const debug::NodeView& view = *network_->node(node);
+        if (view.id_shared) problems.push_back(shared_id_words(view));
     }
     return problems;
 }

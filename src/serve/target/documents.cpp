@@ -6,6 +6,7 @@
 #include "aesl/mentions.hpp"
 #include "serve/json.hpp"
 #include "serve/target/known_variables.hpp"
+#include "serve/target/shared_id.hpp"
 #include "serve/target/target.hpp"
 
 namespace vagus::serve {
@@ -99,12 +100,8 @@ Json Target::target_document() const {
     if (network_) {
         for (const debug::NodeId node : network_->nodes()) {
             nodes.push_back(node_line(node));
-            const debug::NodeView* view = network_->node(node);
-            if (!view->id_shared) continue;
-            twins.push_back(fmt::format(
-                "two nodes have the number {}: {} and {}; give one of "
-                "them another",
-                node, view->name, view->other_name.empty() ? view->name : view->other_name));
+            const debug::NodeView& view = *network_->node(node);
+            if (view.id_shared) twins.push_back(shared_id_words(view));
         }
     }
     Json robot = {{"target", target_},

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "serve/json.hpp"
+#include "serve/workbench/missing_nodes.hpp"
 #include "serve/workbench/workbench.hpp"
 #include "session/known_nodes.hpp"
 
@@ -33,7 +34,7 @@ std::vector<std::string> Workbench::missing_nodes() const {
         if (std::find(files.begin(), files.end(), part.file) == files.end()) continue;
         if (!target_.target_of(part.node, part.node_id)) missing.push_back(part.node);
     }
-    if (missing.empty() && !target_.all_described(1)) missing.push_back("any node");
+    if (missing.empty() && !target_.all_described(1)) missing.push_back(kAnyNode);
     return missing;
 }
 

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "fleet/limits.hpp"
 #include "serve/json.hpp"
+#include "serve/workbench/missing_nodes.hpp"
 #include "serve/workbench/workbench.hpp"
 
 namespace vagus::serve {
@@ -33,7 +34,7 @@ fleet::Shown Workbench::shown() const {
         .actor = run_.actor(), .problems = target_.problems(), .nodes = target_.names_of_nodes()};
     const bool fault = target_.is_at_fault();
     for (const std::string& node : missing_nodes()) {
-        shown.problems.push_back(node + " is not there");
+        shown.problems.push_back(node == kAnyNode ? "no node is there" : node + " is not there");
     }
     if (shown.problems.size() > fleet::kProblemsMax) shown.problems.resize(fleet::kProblemsMax);
     for (std::string& one : shown.problems)

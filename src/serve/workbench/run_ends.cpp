@@ -7,6 +7,7 @@
 
 #include "serve/json.hpp"
 #include "serve/target/stopping.hpp"
+#include "session/stop_node_name.hpp"
 
 namespace vagus::serve {
 
@@ -119,7 +120,7 @@ std::string RunEnds::sentence() const {
     text += who_rests(end.nodes);
     for (const StopNode& node : end.nodes) {
         if (!is_missing(node)) continue;
-        text += fmt::format("; node {} ({}): {}", node.node, node.name, word_of(node.state));
+        text += fmt::format("; {}: {}", session::number_and_name(node), word_of(node.state));
     }
     return text;
 }

@@ -2,17 +2,20 @@
 // nothing but tell a state, obey, and send the events that they are told to emit. A variable that
 // is set becomes a fault of that name.
 //
-//     fleet_crowd TARGET ROBOTS CHANGING
+//     fleet_crowd TARGET ROBOTS CHANGING [NAME]
 //
-// Robots are r1 to rN. Those up to CHANGING do something else five times a second. It prints
-// "crowd N" when all of them are in the fleet, and ends with SIGINT or SIGTERM.
+// Robots are r1 to rN, or all of them want the one NAME. Those up to CHANGING do something else
+// five times a second. It prints "crowd N" when all of them are in the fleet, with a NAME "N in, M
+// out" whenever that changes, and ends with SIGINT or SIGTERM.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleet/limits.hpp"
@@ -35,7 +38,8 @@ class Robot {
 public:
     Robot(const std::string& target, const std::string& name, std::function<void()> wake)
         : member_(options_of(target, name), now()) {
-        serve::LinkOptions link = serve::link_options({.target = target}, name).value();
+        serve::LinkOptions link =
+            serve::link_options({.target = target}, serve::operator_name()).value();
         link.will = member_.will();
         link_ = std::make_unique<serve::MosquittoLink>(std::move(link), std::move(wake));
     }
@@ -53,7 +57,7 @@ public:
     void do_something_else(int64_t beat) {
         if (shown_.state == "running") shown_.actor = fmt::format("step{}", beat);
     }
-    bool is_in() const { return member_.standing() == fleet::Member::Standing::Holding; }
+    bool is(fleet::Member::Standing standing) const { return member_.standing() == standing; }
 
 private:
     static fleet::MemberOptions options_of(const std::string& target, const std::string& name) {
@@ -101,24 +105,33 @@ private:
     fleet::Shown shown_{.state = "running", .actor = "wait"};
 };
 
-void live(std::vector<std::unique_ptr<Robot>>& robots, size_t changing, serve::Bell& bell) {
+using Robots = std::vector<std::unique_ptr<Robot>>;
+
+// What is told once.
+std::string news_of(const Robots& robots, bool of_one_name) {
+    using Standing = fleet::Member::Standing;
+    const auto count = [&robots](Standing standing) {
+        return std::ranges::count_if(robots, [standing](auto& one) { return one->is(standing); });
+    };
+    const auto in = count(Standing::Holding);
+    if (of_one_name) return fmt::format("{} in, {} out", in, count(Standing::Out));
+    return static_cast<size_t>(in) == robots.size() ? fmt::format("crowd {}", in) : "";
+}
+
+void live(Robots& robots, size_t changing, bool of_one_name, serve::Bell& bell) {
     Time next = now();
     int64_t beat = 0;
-    bool told = false;
+    std::string told;
     while (!net::end_asked()) {
         if (now() >= next) {
             next = now() + fleet::kStateEveryMin;
             ++beat;
             for (size_t i = 0; i < changing; ++i) robots[i]->do_something_else(beat);
         }
-        size_t in = 0;
-        for (const auto& robot : robots) {
-            robot->turn();
-            in += robot->is_in() ? 1 : 0;
-        }
-        if (in == robots.size() && !told) {
-            told = true;
-            std::printf("crowd %zu\n", in);
+        for (const auto& robot : robots) robot->turn();
+        const std::string news = news_of(robots, of_one_name);
+        if (!news.empty() && std::exchange(told, news) != news) {
+            std::puts(news.c_str());
             std::fflush(stdout);
         }
         bell.wait(std::max(Duration{}, next - now()));
@@ -129,18 +142,19 @@ void live(std::vector<std::unique_ptr<Robot>>& robots, size_t changing, serve::B
 }  // namespace
 
 int main(int count, char** words) {
-    if (count != 4) {
-        std::fputs("fleet_crowd mqtt://HOST:PORT/FLEET ROBOTS CHANGING\n", stderr);
+    if (count != 4 && count != 5) {
+        std::fputs("fleet_crowd mqtt://HOST:PORT/FLEET ROBOTS CHANGING [NAME]\n", stderr);
         return 2;
     }
     net::watch_for_end();
     serve::Bell bell;
-    std::vector<std::unique_ptr<Robot>> robots;
+    Robots robots;
+    const bool of_one_name = count == 5;
     const size_t size = std::strtoul(words[2], nullptr, 10);
     for (size_t i = 1; i <= size; ++i) {
-        robots.push_back(
-            std::make_unique<Robot>(words[1], "r" + std::to_string(i), [&bell] { bell.ring(); }));
+        const std::string name = of_one_name ? words[4] : "r" + std::to_string(i);
+        robots.push_back(std::make_unique<Robot>(words[1], name, [&bell] { bell.ring(); }));
     }
-    live(robots, std::min<size_t>(size, std::strtoul(words[3], nullptr, 10)), bell);
+    live(robots, std::min<size_t>(size, std::strtoul(words[3], nullptr, 10)), of_one_name, bell);
     return 0;
 }

@@ -67,6 +67,15 @@ class Case(unittest.TestCase):
         self.init(*robots)
         return self.serve_broker()
 
+    def plain_broker(self):
+        """One without TLS, which everybody may use; its target."""
+        port = free_port()
+        configuration = self.folder / f"plain-{port}.conf"
+        configuration.write_text(f"user root\nallow_anonymous true\nlistener {port} localhost\n", encoding="ascii")
+        broker = self.enterContext(Program(shutil.which("mosquitto") or "/usr/sbin/mosquitto", "-c", configuration))
+        connect(port).close()
+        return broker, f"mqtt://localhost:{port}/{FLEET}"
+
     @property
     def target(self):
         return f"mqtts://localhost:{self.port}/{FLEET}"
@@ -76,14 +85,16 @@ class Case(unittest.TestCase):
 
     # ---- robots ----
 
-    def robot(self, name, *arguments, login=None, script=SCRIPT, aesl=AESL, target=None, **part):
-        folder = self.folder / f"{name}-{free_port()}"
+    def robot(self, name, *arguments, login=None, script=SCRIPT, aesl=AESL, target=None, folder=None, env=None, **part):
+        """With a login of its own, if the broker has logins; in a folder of its own, unless it is told."""
+        folder = folder or self.folder / f"{name}-{free_port()}"
         projects.thymio(folder, script="", fleet={**PART, **part})
         projects.write(folder, "robot.aesl", aesl.format(script=script))
         projects.write(folder, "pages/index.html", "<!doctype html>\n")
         program = self.enterContext(vagus(
-            "serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config", "--pages",
-            folder / "pages", "--fleet", target or self.target, "--robot", name, *self.login(login or name), *arguments))
+            "serve", folder, "--start", "--port", 0, "--data", folder / f"data-{name}", "--config", folder / "config", "--pages",
+            folder / "pages", "--fleet", target or self.target, "--robot", name,
+            *([] if self.is_plain(target) else self.login(login or name)), *arguments, env=env))
         program.wait_line(r"^serve http")
         return program
 
@@ -92,11 +103,15 @@ class Case(unittest.TestCase):
         program.wait_line(rf'fleet: this robot is "{name}" of the fleet')
         return program
 
+    @staticmethod
+    def is_plain(target):
+        return target is not None and target.startswith("mqtt:")
+
     # ---- who tells them ----
 
-    def command(self, *arguments):
+    def command(self, *arguments, env=None):
         return subprocess.run([VAGUS, "fleet", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              timeout=4 * GIVE_UP_AFTER, check=False)
+                              timeout=4 * GIVE_UP_AFTER, check=False, env={**os.environ, **(env or {})})
 
     def desk(self, *arguments, by="operator", wait=GIVE_UP_AFTER):
         return self.command(self.target, *arguments, *self.login(by), "--wait", wait)
@@ -302,12 +317,8 @@ class Rights(Case):
 
     def test_a_port_without_tls_is_named(self):
         self.init()
-        port = free_port()
-        configuration = self.folder / "plain.conf"
-        configuration.write_text(f"user root\nallow_anonymous true\nlistener {port} localhost\n", encoding="ascii")
-        with Program(shutil.which("mosquitto") or "/usr/sbin/mosquitto", "-c", configuration):
-            connect(port).close()
-            self.assertIn(f"what answers at port {port} does not speak TLS; does the broker want mqtt://?", self.refused_at(f"mqtts://localhost:{port}/{FLEET}"))
+        port = int(re.search(r":(\d+)/", self.plain_broker()[1]).group(1))
+        self.assertIn(f"what answers at port {port} does not speak TLS; does the broker want mqtt://?", self.refused_at(f"mqtts://localhost:{port}/{FLEET}"))
 
     def refused_at(self, target, tls=True):
         done = self.command(target, "list", *self.login("looker")[0 if tls else 2:], "--wait", 3)

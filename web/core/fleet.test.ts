@@ -112,6 +112,19 @@ describe('choosing', () => {
     expect(at('x', 'a')).toBeNull();
   });
 
+  it('a page is four rows, or as many as there are, and stays in its column', () => {
+    const many = Array.from({ length: 20 }, (_, i) => String(i));
+    const at = (key: string, from: string) =>
+      keyed({ ...noChoice, at: from }, many, key, 3, none)?.at;
+    expect(at('PageDown', '1')).toBe('13');
+    expect(at('PageDown', '13')).toBe('19');
+    expect(at('PageDown', '14')).toBe('17');
+    expect(at('PageDown', '19')).toBe('19');
+    expect(at('PageUp', '14')).toBe('2');
+    expect(at('PageUp', '4')).toBe('1');
+    expect(at('PageUp', '0')).toBe('0');
+  });
+
   it('Space chooses, Shift extends, Ctrl+A chooses all, Escape none', () => {
     const b = keyed({ ...noChoice, at: 'b' }, list, ' ', 3, none) ?? noChoice;
     expect(names(b)).toEqual(['b']);
@@ -129,7 +142,17 @@ describe('choosing', () => {
   });
 
   it('never chooses what is not in the list, whatever is pressed', () => {
-    const key = fc.constantFrom('ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', ' ', 'a', 'End');
+    const key = fc.constantFrom(
+      'ArrowUp',
+      'ArrowDown',
+      'ArrowLeft',
+      'ArrowRight',
+      ' ',
+      'a',
+      'End',
+      'PageUp',
+      'PageDown',
+    );
     const hold = fc.record({ shift: fc.boolean(), ctrl: fc.boolean() });
     fc.assert(
       fc.property(

@@ -154,6 +154,9 @@ export function keyed(
   return hold.shift ? ranged(choice, list, name) : { ...choice, at: name, from: name };
 }
 
+/** So far goes a page: some rows of a window that is not large, so that none is passed over unseen. */
+const kRowsOfPage = 4;
+
 function steps(key: string, at: number, columns: number, count: number): number | null {
   switch (key) {
     case 'ArrowRight':
@@ -165,6 +168,10 @@ function steps(key: string, at: number, columns: number, count: number): number 
       return at + columns < count ? at + columns : at;
     case 'ArrowUp':
       return at - columns >= 0 ? at - columns : at;
+    case 'PageDown':
+      return at + columns * Math.min(kRowsOfPage, Math.floor((count - 1 - at) / columns));
+    case 'PageUp':
+      return at - columns * Math.min(kRowsOfPage, Math.floor(at / columns));
     case 'Home':
       return 0;
     case 'End':

@@ -121,8 +121,7 @@ std::vector<std::string> Member::problems() const {
     std::vector<std::string> problems = shown_.problems;
     if (!wanted_until_) return problems;
     problems.resize(std::min(problems.size(), kProblemsMax - 1));
-    problems.push_back(
-        fmt::format("another program wants the name \"{}\", too, and stays out", options_.robot));
+    problems.emplace_back("two programs want this name; the other one stays out");
     return problems;
 }
 

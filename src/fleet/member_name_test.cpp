@@ -137,7 +137,7 @@ TEST(MemberName, ItsHolderSaysAsLongAsAnotherWantsIt) {
               "each robot a name of its own (--robot, or \"name\" in its world)");
     c.tick(35s);
     EXPECT_EQ(c.published<State>().back().problems,
-              (Texts{"a wheel", "another program wants the name \"r1\", too, and stays out"}));
+              (Texts{"a wheel", "two programs want this name; the other one stays out"}));
     c.tick(11s + kNameWantedFor);
     EXPECT_EQ(c.published<State>().back().problems, Texts{"a wheel"});
 }

@@ -11,8 +11,9 @@ from harness import free_port, vagus  # noqa: E402
 from proxy import Proxy  # noqa: E402
 import projects  # noqa: E402
 
-VERBS = (["list"], ["watch"], ["log"], ["stop", "all"], ["start", "all"], ["set", "r1", "thymio-II.go", "1"], ["raise", "r1", "guard", "Danger"],
-         ["emit", "all", "alarm"], ["tell", "r1", "thymio-II.go"], ["identify", "r1"], ["forget", "r1"], ["deploy", "all", "--rollback"])
+VERBS = (["list"], ["watch"], ["log"], ["stop", "all"], ["start", "all"], ["set", "r1", "thymio-II.go", "1"],
+         ["raise", "r1", "guard", "Danger"], ["emit", "all", "alarm"], ["tell", "r1", "thymio-II.go"], ["identify", "r1"], ["forget", "r1"],
+         ["deploy", "all", "--rollback"])
 
 
 class Silent(Case):

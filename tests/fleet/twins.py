@@ -48,7 +48,7 @@ class Twins(Versions):
         second.wait_line(r'"r1" of the fleet "lab": another robot has this name, and answers; this one stays out of the fleet until '
                          r"the name is free. Give each robot a name of its own")
         first.wait_line(r'fleet: another program wants the name "r1", too, and was told to stay out')
-        wait_until("who lists robots is not told", lambda: 'another program wants the name "r1", too, and stays out' in self.do("list"))
+        wait_until("who lists robots is not told", lambda: "; two programs want this name; the other one stays out" in self.do("list"))
         second.wait_line(r"the robot stops, as its project says")
 
     def test_worlds_that_are_started_again_and_again(self):

@@ -51,6 +51,8 @@ private:
 };
 
 std::string sentence_of(int result) {
+    // What TLS says of a broker that has ended the connection.
+    if (result == MOSQ_ERR_ERRNO && errno == EPROTO) return mosquitto_strerror(MOSQ_ERR_CONN_LOST);
     // The library has no word for it.
     if (result == MOSQ_ERR_KEEPALIVE) {
         return fmt::format("it has not answered for {} s", fleet::kKeepAliveSeconds);

@@ -194,6 +194,7 @@ TEST_F(WantedTest, EachRobotOfAFolderRemembersItsOwn) {
 TEST_F(WantedTest, WhatAnEarlierVersionRememberedIsThatOfTheFirst) {
     const fs::path before = fs::path(project) / ".vagus" / "want.json";
     const auto write = [&](int64_t number) {
+        fs::create_directories(before.parent_path());
         const fleet::Version version{number, "", "refused", "a reason"};
         EXPECT_TRUE(write_file(before.string(), fleet::payload_of(version)).ok());
     };

@@ -90,6 +90,7 @@ void Member::hear_question(const Ask& ask) {
 void Member::hear_answer(const Answer& answer) {
     const bool is_for_us = answer.id == options_.instance;
     if (standing_ != Standing::Asking || !is_for_us || answer.instance == options_.instance) return;
+    holder_ = Connection{kOnline, answer.instance, 0};
     stay_out("another robot has this name, and answers");
 }
 
@@ -171,6 +172,9 @@ void Member::hear_connection(const Connection& said) {
 void Member::hear_connection_of_other(const Connection& said) {
     if (standing_ == Standing::Holding) return hear_rival(said);
     const bool online = said.state == kOnline;
+    // One more that stayed out has gone; whoever has the name says so again.
+    const bool is_holder = !holder_ || holder_->instance == said.instance;
+    if (!online && standing_ == Standing::Out && !is_holder) return;
     holder_.reset();
     if (online) holder_ = said;
     if (!online && standing_ == Standing::Out) return ask_for_name();
@@ -181,7 +185,10 @@ void Member::hear_connection_of_other(const Connection& said) {
 void Member::hear_rival(const Connection& said) {
     // Its last words stand where ours did.
     if (said.state != kOnline) return say_online();
-    if (onlines_out_ == 0) return stay_out("another robot has claimed this name behind this one");
+    if (onlines_out_ == 0) {
+        holder_ = said;
+        return stay_out("another robot has claimed this name behind this one");
+    }
     settled_at_ = now_ + kNameSettles;
 }
 

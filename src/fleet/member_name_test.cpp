@@ -172,6 +172,18 @@ TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
     EXPECT_EQ(c.member.standing(), Member::Standing::Holding);
 }
 
+TEST(MemberName, ItIsNotAskedForAgainWhenAnotherOneThatStayedOutGoes) {
+    MemberCase c;
+    c.hear(Connected{});
+    c.connection("online", "i2");
+    c.name_answer("i2");
+    c.connection("lost", "i3");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Out);
+    c.connection("online", "i2");
+    c.connection("lost", "i2");
+    EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
+}
+
 TEST(MemberName, ABrokerThatHidesOurOwnMessagesIsNamed) {
     MemberCase c;
     c.hear(Connected{});

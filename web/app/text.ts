@@ -350,18 +350,13 @@ export const text = {
   },
   empty: {
     properties: 'Select something in a plan or a world to see and change its properties.',
-    propertiesOfPlan: 'Select an element of the plan to see and change its properties.',
     propertiesOfWorld: 'Select a thing in the world to see and change its properties.',
     problems: 'No problems.',
     watch: 'Nothing watched. Press + or drag a variable here.',
-    breakpoints: 'None. Press F9 at a line of a script or at an element of a plan.',
     events: 'No event since the start.',
-    console: 'No output yet. Messages of the server, the run and the plan appear here.',
-    plots: 'Nothing plotted. Press the curve beside a variable.',
     variables: 'No node. Choose a target, or press F5 to start the simulator.',
     variablesOfBus: (name: string) =>
       `No node on ${name} yet. Switch the robot on; its variables appear here by themselves.`,
-    world: 'No world. Press F5 to start the simulator.',
     network: 'No bus. Choose a target at the top.',
     documents: `Open a file from the project, or press ${keysShown('Ctrl+K')}.`,
     files: 'No file yet. Press + to create one.',
@@ -556,7 +551,6 @@ export const text = {
     compare: 'Compare with…',
     copyPath: 'Copy the path',
     copied: (path: string) => `${path} is on the clipboard.`,
-    exportZip: 'Export as zip',
     collapse: 'Close all folders',
     more: 'More files than can be shown.',
     kinds: {
@@ -650,7 +644,6 @@ export const text = {
     noDefinition: 'Nothing is declared under this name.',
     references: (name: string) => `Where “${name}” is used`,
     address: 'Address',
-    pausedLineOf: (line: number) => `paused at line ${line}`,
     loaded: (name: string) => `${name} is on the robot.`,
     kept: 'The node keeps its program for its next start.',
     moreFailed: (nodes: number) => `${s(nodes, 'more node', 'more nodes')} did not do it.`,
@@ -678,7 +671,6 @@ export const text = {
     next: 'Next',
     label: 'Problems of all files',
     more: (count: number) => `and ${count} more`,
-    filter: 'Only of this file',
     noFix: 'No problem here has a fix that can be applied.',
   },
   variables: {
@@ -785,17 +777,7 @@ export const text = {
         : one.outcome === ''
           ? one.element
           : `${one.element} · ${one.outcome}`,
-    from: (hit: number) => `from hit ${hit}`,
-    holds: 'paused here',
-    when: 'Stop when',
-    whenHint: 'a formula, such as distance < 5',
-    add: 'Add',
     pausedAt: (place: string) => `Paused by the breakpoint ${place}`,
-  },
-  console: {
-    label: 'Console',
-    clear: 'Clear the console',
-    leftOut: (count: number) => `${s(count, 'line', 'lines')} left out`,
   },
   overlay: {
     search: 'Type a command',

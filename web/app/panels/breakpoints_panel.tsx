@@ -5,6 +5,7 @@ import { ConditionForm } from './breakpoints/condition_form';
 import { HeldEvents } from './breakpoints/held_events';
 import { PlanRow } from './breakpoints/plan_row';
 import { ScriptRow } from './breakpoints/script_row';
+import { breakWords } from './breakpoints/words';
 import '../look/lists.css';
 
 /** All breakpoints, of plans and of scripts; the disc tells whether one is on. */
@@ -14,7 +15,7 @@ export default function BreakpointsPanel() {
   const plans = all?.plans ?? [];
   return (
     <div className="scroll">
-      {scripts.length + plans.length === 0 ? <Quiet>{text.empty.breakpoints}</Quiet> : null}
+      {scripts.length + plans.length === 0 ? <Quiet>{breakWords.none}</Quiet> : null}
       <ul aria-label={text.panels.breakpoints}>
         {plans.map((one) => (
           <PlanRow key={one.number} one={one} />

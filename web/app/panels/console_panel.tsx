@@ -2,10 +2,15 @@ import { useEffect, useRef, useState } from 'react';
 import type { Line } from '../../protocol/messages';
 import { useStudio } from '../hooks';
 import { Quiet } from '../parts/blank';
-import { text } from '../text';
+import { counted } from '../text';
 import '../look/lists.css';
 
 const kLinesMax = 1000;
+const words = {
+  label: 'Console',
+  none: 'No output yet. Messages of the server, the run and the plan appear here.',
+  leftOut: (count: number) => `${counted(count, 'line', 'lines')} left out`,
+};
 
 /** What the server, the run and the plan say; follows the newest while it is at the end. */
 export default function ConsolePanel() {
@@ -15,12 +20,12 @@ export default function ConsolePanel() {
   useEffect(() => {
     if (follows.current && list.current) list.current.scrollTop = list.current.scrollHeight;
   }, [lines]);
-  if (lines.length === 0) return <Quiet>{text.empty.console}</Quiet>;
+  if (lines.length === 0) return <Quiet>{words.none}</Quiet>;
   return (
     <div
       className="scroll console"
       role="log"
-      aria-label={text.console.label}
+      aria-label={words.label}
       tabIndex={0}
       data-inset
       ref={list}
@@ -28,7 +33,7 @@ export default function ConsolePanel() {
         (follows.current = at.scrollHeight - at.scrollTop - at.clientHeight < 24)
       }
     >
-      {leftOut > 0 ? <Quiet>{text.console.leftOut(leftOut)}</Quiet> : null}
+      {leftOut > 0 ? <Quiet>{words.leftOut(leftOut)}</Quiet> : null}
       {lines.map((line) => (
         <div key={line.number} className={`said said--${line.kind}`}>
           <time>{line.t.toFixed(3)}</time>

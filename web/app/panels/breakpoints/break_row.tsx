@@ -5,6 +5,7 @@ import { useDrives } from '../../hooks';
 import { Button } from '../../parts/button';
 import { kStroke } from '../../parts/icons';
 import { text } from '../../text';
+import { breakWords } from './words';
 
 /** One breakpoint: its disc and place, which lead there, a switch, and away with it. */
 export function BreakRow(props: {
@@ -27,7 +28,7 @@ export function BreakRow(props: {
         <span className={`disc disc--${disc}`} aria-hidden />
         {children}
         {enabled ? null : <span className="muted">{text.editor.off}</span>}
-        {holds ? <span className="bp__holds">{text.breakpoints.holds}</span> : null}
+        {holds ? <span className="bp__holds">{breakWords.holds}</span> : null}
         <span className="bp__hits num">{text.editor.hits(hits)}</span>
       </button>
       <button

@@ -3,10 +3,8 @@ import { mistakeIn } from '../../../core/condition';
 import { kindOf } from '../../documents';
 import { useDrives, useStudio, useTopic, useWindow } from '../../hooks';
 import { Button } from '../../parts/button';
-import { text } from '../../text';
 import { whyOf } from '../../../core/why';
-
-const words = text.breakpoints;
+import { breakWords as words } from './words';
 
 /** A plan that stops when a condition becomes true: the one that is looked at, else the project's. */
 export function ConditionForm() {

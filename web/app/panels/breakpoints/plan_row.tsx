@@ -6,14 +6,13 @@ import { text } from '../../text';
 import { changeBreak } from '../../views/plan/break_acts';
 import { revealElement } from '../../views/plan/reveal_element';
 import { BreakRow } from './break_row';
-
-const words = text.breakpoints;
+import { breakWords as words } from './words';
 
 export function PlanRow({ one }: { one: PlanBreakpoint }) {
   const studio = useStudio();
   const { number, doc, kind, condition, stop_at, enabled, hits, why } = one;
   const holds = usePart('plan', {}, (is) => is?.stands_at?.includes(number) ?? false);
-  const place = words.place(one);
+  const place = text.breakpoints.place(one);
   return (
     <BreakRow
       disc={discOf(one)}

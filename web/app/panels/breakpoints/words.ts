@@ -1,6 +1,15 @@
-// Words of events that wait while a plan is paused: apart from text.ts, as they come with their list.
+// Words of breakpoints and of events that wait while a plan is paused: apart from text.ts, as they come with that panel alone.
 
 import { counted } from '../../text';
+
+export const breakWords = {
+  none: 'None. Press F9 at a line of a script or at an element of a plan.',
+  from: (hit: number) => `from hit ${hit}`,
+  holds: 'paused here',
+  when: 'Stop when',
+  whenHint: 'a formula, such as distance < 5',
+  add: 'Add',
+};
 
 export const heldWords = {
   title: 'Held events',

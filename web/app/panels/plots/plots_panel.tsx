@@ -4,7 +4,6 @@ import { plotPick } from '../../commands/robot_commands';
 import { useChanges, useStudio, useWindow } from '../../hooks';
 import { Quiet } from '../../parts/blank';
 import { useShown } from '../../robot_hooks';
-import { text } from '../../text';
 import { words } from './words';
 import { PickForm } from '../variables/pick_form';
 import { droppedPick, takesPick } from '../variables/watch_panel';
@@ -41,7 +40,7 @@ export default function PlotsPanel() {
             onPick={(pick, size) => plotPick(studio, pick, size)}
           />
         </div>
-        {empty ? <Quiet>{text.empty.plots}</Quiet> : <PlotLegend cursor={cursor} />}
+        {empty ? <Quiet>{words.none}</Quiet> : <PlotLegend cursor={cursor} />}
       </div>
       {empty || !shown ? <div className="plots__main" /> : <Main cursor={cursor} />}
     </div>

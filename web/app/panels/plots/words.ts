@@ -3,6 +3,7 @@
 import { counted } from '../../text';
 
 export const words = {
+  none: 'Nothing plotted. Press the curve beside a variable.',
   label: (names: string) => `Plot of ${names}`,
   add: 'node.variable',
   span: 'Length',

@@ -3,6 +3,7 @@
 import { counted } from '../../text';
 
 export const drawWords = {
+  noneSelected: 'Select an element of the plan to see and change its properties.',
   canvas: (name: string) => `Plan ${name}, drawn`,
   failed: 'The plan cannot be opened.',
   broken: 'The text is not valid JSON. Fix it as text; the drawing follows.',

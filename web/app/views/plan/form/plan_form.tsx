@@ -21,7 +21,7 @@ export function PlanForm({ plan }: { plan: ShownPlan }) {
   const board = useBoard(plan.board);
   const drives = useDrives();
   const { selected } = board;
-  if (selected === null) return <Quiet>{text.empty.propertiesOfPlan}</Quiet>;
+  if (selected === null) return <Quiet>{words.noneSelected}</Quiet>;
   const arrow = board.arrow(selected);
   const key = arrow ? arrow.source : selected;
   return (
@@ -63,7 +63,7 @@ function Chosen(props: { board: PlanBoard; chosen: string; disabled: boolean }) 
         <NoteForm board={board} note={note} disabled={disabled} />
       </>
     );
-  if (!element) return <Quiet>{text.empty.propertiesOfPlan}</Quiet>;
+  if (!element) return <Quiet>{words.noneSelected}</Quiet>;
   const about = [element.template, element.toolbox].filter(Boolean).join(' · ');
   return (
     <>

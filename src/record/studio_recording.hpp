@@ -19,8 +19,6 @@
 
 namespace vagus::record {
 
-constexpr uint64_t kStudioRecordingBytesMax = uint64_t{512} << 20;  // then it ends, and says so
-
 class StudioRecording final : public Recording {
 public:
     // Paths in `about` and in `files`, which the run has read, are those of this computer. Session

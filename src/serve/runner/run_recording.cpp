@@ -38,7 +38,7 @@ void RunRecording::begin(const talk::Open& order, Files& read, session::SimSessi
     if (order.world_text) files[order.world] = *order.world_text;
     auto begun =
         record::StudioRecording::begin(order.recording, about_run(order), files, session, run);
-    if (!begun.ok()) return tell_none(begun.error().what);
+    if (!begun.ok()) return tended_.cannot(begun.error().what);
     in_world_ = begun.value().get();
     keep(std::move(begun.value()));
 }
@@ -53,19 +53,15 @@ void RunRecording::begin_on_bus(const talk::Open& order, Files& read, embed::Pre
     about.project = order.project;
     auto begun = record::PlanRecording::begin(order.recording, about, read.take(), run,
                                               record::Pace::NeverWaits);
-    if (!begun.ok()) return tell_none(begun.error().what);
+    if (!begun.ok()) return tended_.cannot(begun.error().what);
     on_bus_ = begun.value().get();
     on_bus_->follow(debugger);
     keep(std::move(begun.value()));
 }
 
-void RunRecording::tell_none(const std::string& why) {
-    teller_.line(talk::LineKind::Warning, "this run is not recorded: " + why);
-}
-
 void RunRecording::keep(std::unique_ptr<record::Recording> recording) {
-    recording_ = std::move(recording);
-    recording_->keep_at_most(record::kStudioRecordingBytesMax);
+    recording_ = recording.get();
+    tended_.keep(std::move(recording), "variables and poses");
 }
 
 void RunRecording::let_go() {
@@ -73,20 +69,10 @@ void RunRecording::let_go() {
 }
 
 void RunRecording::end() {
-    if (!recording_) return;
-    const Status ended = recording_->end();
-    tell_trouble();
-    if (!ended.ok()) teller_.line(talk::LineKind::Warning, ended.error().what);
-    if (recording_->dropped() > 0) {
-        teller_.line(talk::LineKind::Warning,
-                     fmt::format("the disk was too slow for the recording of this run: {} samples "
-                                 "of variables and poses were left out",
-                                 recording_->dropped()));
-    }
-    answer_flushes(true);
+    tended_.end();
+    recording_ = nullptr;
     in_world_ = nullptr;
     on_bus_ = nullptr;
-    recording_.reset();
 }
 
 void RunRecording::begin_turn() {
@@ -114,32 +100,7 @@ void RunRecording::reseeded(uint64_t seed) {
 }
 
 void RunRecording::flush(uint64_t request) {
-    if (recording_) {
-        flushes_.emplace_back(request, recording_->flush());
-        return;
-    }
-    teller_.answer(request, Status::done());
-}
-
-void RunRecording::tell() {
-    if (!recording_) return;
-    recording_->tend();
-    tell_trouble();
-    answer_flushes(false);
-}
-
-void RunRecording::tell_trouble() {
-    if (const auto trouble = recording_->take_trouble()) {
-        teller_.line(talk::LineKind::Warning, *trouble);
-    }
-}
-
-void RunRecording::answer_flushes(bool all) {
-    std::erase_if(flushes_, [&](const auto& one) {
-        if (!all && !recording_->flushed(one.second)) return false;
-        teller_.answer(one.first, Status::done());
-        return true;
-    });
+    tended_.flush([this, request] { teller_.answer(request, Status::done()); });
 }
 
 }  // namespace vagus::serve

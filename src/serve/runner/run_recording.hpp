@@ -20,12 +20,11 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "base/file.hpp"
 #include "record/plan_recording.hpp"
 #include "record/studio_recording.hpp"
+#include "record/tended_recording.hpp"
 #include "serve/runner/teller.hpp"
 #include "serve/talk/orders.hpp"
 
@@ -49,7 +48,10 @@ public:
     };
 
     // Borrowed.
-    explicit RunRecording(Teller& teller) : teller_(teller) {}
+    explicit RunRecording(Teller& teller)
+        : teller_(teller), tended_([this](const std::string& warning) {
+              teller_.line(talk::LineKind::Warning, warning);
+          }) {}
 
     // Session and run are borrowed until end(); no run: the world alone. That nothing can be
     // recorded is told, and the run goes on.
@@ -72,21 +74,17 @@ public:
     // Answered once all that is there now is in the file.
     void flush(uint64_t request);
     // What has become of it.
-    void tell();
+    void tell() { tended_.tend(); }
 
 private:
-    void tell_none(const std::string& why);
     void keep(std::unique_ptr<record::Recording> recording);
-    void tell_trouble();
-    void answer_flushes(bool all);
 
     Teller& teller_;
-    std::unique_ptr<record::Recording> recording_;
+    record::TendedRecording tended_;
     // The same one, as what it is.
+    record::Recording* recording_ = nullptr;
     record::StudioRecording* in_world_ = nullptr;
     record::PlanRecording* on_bus_ = nullptr;
-    // Of the server, and of the tape.
-    std::vector<std::pair<uint64_t, uint64_t>> flushes_;
 };
 
 }  // namespace vagus::serve

@@ -257,7 +257,7 @@ void Workbench::perform(const life::EndRunner& end) {
 void Workbench::perform(const life::Disconnect&) {
     end_scripts_recording();
     target_.disconnect();
-    recordings_.over(bus_ || run_.time() > 0);
+    recordings_.over(run_has_begun());
     run_.close();
     bus_.reset();
     loaded_by_world_.clear();

@@ -78,7 +78,7 @@ void Workbench::record_plan(const RunOrder& order) {
 
 // A run that cannot be recorded goes all the same.
 void Workbench::record_run(RunOrder& order) {
-    auto path = recordings_.next(bus_ || run_.time() > 0, order.past ? order.past->recording : "");
+    auto path = recordings_.next(run_has_begun(), order.past ? order.past->recording : "");
     if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
     order.recording = std::move(path.value());
     std::erase_if(recorded_,
@@ -150,12 +150,17 @@ ShownRun Workbench::shown_run() {
     return {.file = [this] { return recording_of_run(); },
             .flush =
                 [this](std::function<void()> done) {
-                    if (scripts_recording_.records()) {
-                        return scripts_recording_.flush(std::move(done));
+                    if (!scripts_recording_.tended().is_there()) {
+                        return run_.flush_recording(std::move(done));
                     }
-                    run_.flush_recording(std::move(done));
+                    scripts_recording_.tended().flush(std::move(done));
                 },
             .kept = [this](const std::string& path) { return asked_recording(path); }};
+}
+
+// In a world nothing has been done before time passes; on a bus something has from the first frame.
+bool Workbench::run_has_begun() const {
+    return bus_ || run_.time() > 0;
 }
 
 Result<std::string> Workbench::asked_recording(const std::string& path) const {
@@ -167,10 +172,10 @@ Result<std::string> Workbench::asked_recording(const std::string& path) const {
 
 Result<std::string> Workbench::recording_of_run() const {
     // On a bus nothing of a run before is shown.
-    const std::string path = recordings_.of_run(bus_ || run_.time() > 0);
+    const std::string path = recordings_.of_run(run_has_begun());
     std::error_code failed;
     if (!path.empty() && std::filesystem::exists(path, failed)) return path;
-    if (!path.empty() && (bus_ || run_.time() > 0)) {
+    if (!path.empty() && run_has_begun()) {
         return Error{Code::NotFound, with_short_paths(path) +
                                          ": the recording of this run is not there any more; "
                                          "Run makes a new one"};
@@ -331,7 +336,7 @@ void Workbench::end_scripts_recording() {
 void Workbench::record_scripts() {
     record_bus();
     if (places_.serves || !project_ || project_->scripts.empty()) return;
-    const auto path = recordings_.next(true);
+    const auto path = recordings_.next(run_has_begun());
     if (!path.ok()) return say("warning", "this run is not recorded: " + path.error().what);
     record::RunFile about;
     about.verb = record::kStudioVerb;

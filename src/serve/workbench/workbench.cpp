@@ -100,7 +100,6 @@ Workbench::Workbench(net::Links& links, Desk& desk, const WorkbenchPlaces& place
         if (plan_breakpoints_.note(list)) desk_.topics().touch("breakpoints");
     });
     record_history();
-    scripts_recording_.on_say([this](const auto& kind, const auto& text) { say(kind, text); });
     desk.on_people([this] { people_changed(); });
     declare_topics();
     declare_project_commands();
@@ -464,7 +463,7 @@ void Workbench::tick(Time now) {
     add_missing_scripts();
     tick_life();
     worker_.tick();
-    scripts_recording_.tick();
+    scripts_recording_.tended().tend();
     whys_.tick(now);
     turnings_.tick(now);
     logs_.tick(now);
@@ -499,7 +498,7 @@ Time Workbench::next_tick(Time now) const {
     next = std::min({next, whys_.next_tick(), turnings_.next_tick(), logs_.next_tick(),
                      pairs_.next_tick(), keeps_.next_tick(), compares_.next_tick(),
                      tries_.next_tick(), tests_.next_tick()});
-    next = std::min(next, scripts_recording_.next_tick(now));
+    next = std::min(next, scripts_recording_.tended().next_tick(now));
     if (life_.waits_for_nodes()) next = std::min(next, now + 20ms);
     if (!told_life_.empty()) return now;
     return std::min(next, life_.next_tick());

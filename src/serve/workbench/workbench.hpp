@@ -228,6 +228,7 @@ private:
     void continue_run(const Call& call, const std::string& recording);
     void record_script(uint16_t node, const std::string& name);
     ShownRun shown_run();
+    bool run_has_begun() const;
     Result<std::string> recording_of_run() const;
     Result<std::string> recording_at(const std::string& path) const;
     Result<std::string> asked_recording(const std::string& path) const;
@@ -328,7 +329,7 @@ private:
     Recordings recordings_;
     std::map<std::string, RunOrder> recorded_;  // of the last two runs, by recording
     std::optional<Continues> continues_;        // the run that is being opened
-    ScriptsRecording scripts_recording_;
+    ScriptsRecording scripts_recording_{[this](const auto& warning) { say("warning", warning); }};
     bool scripts_run_ = false;  // on a bus, without a plan
     WhyDesk whys_;
     TurningDesk turnings_;

@@ -58,7 +58,29 @@ Result<std::unique_ptr<PastBus>> PastBus::read(const mcap::Reader& reader, aesl:
         }
     }
     TRY(check_read(cursor, reader));
+    past->place_scripts();
     return past;
+}
+
+// Once the names of all nodes are known.
+void PastBus::place_scripts() {
+    std::vector<aesl::NodeName> nodes;
+    for (const auto& [id, name] : names_) nodes.push_back({name, id});
+    const auto by_node = [&nodes](const aesl::Project& project) {
+        std::map<uint16_t, int> found;
+        const std::vector<int> scripts = aesl::scripts_for(project, nodes);
+        for (size_t i = 0; i < nodes.size(); ++i) {
+            if (scripts[i] >= 0) found[nodes[i].id] = scripts[i];
+        }
+        return found;
+    };
+    scripts_ = by_node(project_);
+    for (Loaded& one : loaded_) {
+        const auto found = by_node(one.project);
+        if (const auto script = found.find(one.node); script != found.end()) {
+            one.script = script->second;
+        }
+    }
 }
 
 void PastBus::see_trace(Time at, std::string_view text) {
@@ -128,7 +150,11 @@ void PastBus::see_script(Time at, const ScriptLoaded& loaded, const mcap::Reader
     if (!project.ok()) return;
     const mcap::Attachment* const file = reader.attachment(file_);
     const bool same = loaded.file == file_ && file != nullptr && file->data == loaded.text;
-    loaded_.push_back({at, loaded.node, loaded.file, std::move(project.value()), same});
+    loaded_.push_back({.at = at,
+                       .node = loaded.node,
+                       .file = loaded.file,
+                       .project = std::move(project.value()),
+                       .is_attached = same});
 }
 
 PastBus::ScriptThen PastBus::script_of(uint16_t node, Time at) const {
@@ -136,16 +162,12 @@ PastBus::ScriptThen PastBus::script_of(uint16_t node, Time at) const {
         return one.node == node && one.at <= at;
     });
     const bool is_loaded = last != loaded_.rend();
+    const auto own = scripts_.find(node);
+    const int script = is_loaded ? last->script : own == scripts_.end() ? -1 : own->second;
+    if (script < 0) return {};
     const aesl::Project& project = is_loaded ? last->project : project_;
-    std::vector<aesl::NodeName> nodes;
-    for (const auto& [id, name] : names_) nodes.push_back({name, id});
-    const std::vector<int> scripts = aesl::scripts_for(project, nodes);
-    for (size_t i = 0; i < nodes.size(); ++i) {
-        if (nodes[i].id != node || scripts[i] < 0) continue;
-        return {&project.scripts[static_cast<size_t>(scripts[i])], &project.common,
-                is_loaded ? last->file : file_, !is_loaded || last->is_attached};
-    }
-    return {};
+    return {&project.scripts[static_cast<size_t>(script)], &project.common,
+            is_loaded ? last->file : file_, !is_loaded || last->is_attached};
 }
 
 // ---- the run ----

@@ -122,6 +122,7 @@ private:
     void see_frame(Time at, std::string_view data);
     void see_event(Time at, std::string_view text);
     void see_node(std::string_view text);
+    void place_scripts();
     void see_script(Time at, const ScriptLoaded& loaded, const mcap::Reader& reader);
     const Line* next_line() const;
     bool comes_before_line(const Item& item) const;
@@ -147,9 +148,11 @@ private:
         uint16_t node = 0;
         std::string file;
         aesl::Project project;
+        int script = -1;  // of it, that is for the node; -1: none
         bool is_attached = false;
     };
-    std::vector<Loaded> loaded_;  // the last one of a node counts
+    std::vector<Loaded> loaded_;       // the last one of a node counts
+    std::map<uint16_t, int> scripts_;  // of the project, by nodes that it has one for
     size_t places_ = 0;
     size_t item_ = 0;  // the next
     size_t line_ = 0;

@@ -1,5 +1,5 @@
 // Who has the name of a robot.
-#include "fleet/member_case.hpp"
+#include "fleet/test_member.hpp"
 
 namespace vagus::fleet {
 namespace {
@@ -163,9 +163,7 @@ TEST(MemberName, WhoStaysOutAsksAgainAndSaysNoMore) {
 
 TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
     MemberCase c;
-    c.hear(Connected{});
-    c.connection("online", "i2");
-    c.name_answer("i2");
+    c.stay_out();
     c.connection("lost", "i2");
     EXPECT_EQ(c.member.standing(), Member::Standing::Asking);
     c.question("i1");
@@ -174,9 +172,7 @@ TEST(MemberName, ItIsAskedForAgainWhenItsHolderGoes) {
 
 TEST(MemberName, ItIsNotAskedForAgainWhenAnotherOneThatStayedOutGoes) {
     MemberCase c;
-    c.hear(Connected{});
-    c.connection("online", "i2");
-    c.name_answer("i2");
+    c.stay_out();
     c.connection("lost", "i3");
     EXPECT_EQ(c.member.standing(), Member::Standing::Out);
     c.connection("online", "i2");

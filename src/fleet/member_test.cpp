@@ -1,4 +1,4 @@
-#include "fleet/member_case.hpp"
+#include "fleet/test_member.hpp"
 
 #include <algorithm>
 
@@ -334,9 +334,7 @@ TEST(MemberCommands, OnlyStopGoesToMany) {
 
 TEST(MemberCommands, StopForAllIsObeyedByOneThatStaysOut) {
     MemberCase c;
-    c.hear(Connected{});
-    c.connection("online", "i2");
-    c.name_answer("i2");
+    c.stay_out();
     c.hear({.kind = Kind::Command, .name = "stop"},
            Command{.verb = "stop", .id = "s", .reply = "op"});
     EXPECT_EQ(c.all<Obey>().size(), 1u);

@@ -21,12 +21,16 @@ LATER = SCRIPT.replace("onevent go", "var more\nmore = 0\nonevent go")
 
 
 class BusScripts(Case):
-    def open_robot(self, *more):
+    def open_robot(self):
         arena = self.enterContext(tempfile.TemporaryDirectory(prefix="vagus-arena-"))
-        robots = [{"name": "alice", "node": 1}, *more]
-        self.robot_program = self.enterContext(simulated(arena, *robots))
+        self.robot_program = self.enterContext(simulated(arena, {"name": "alice", "node": 1}))
         self.port = listening(self.robot_program)
-        self.open(lambda folder: projects.bus(folder, f"tcp:127.0.0.1:{self.port}", name="thymio-II", script=SCRIPT, **{}))
+
+        def make(folder):
+            projects.bus(folder, f"tcp:127.0.0.1:{self.port}", name="thymio-II", script=SCRIPT)
+            projects.write(folder, "rounds.plan.json", projects.PLAN)  # which the project does not name
+
+        self.open(make)
         self.wait_node(described=True)
         return self.page
 
@@ -135,7 +139,7 @@ class BusScripts(Case):
         words = page.do("history.at", t=0, ranges=[[1, place, 2]])["values"][0]["words"]
         self.assertEqual(words, [0, 0])
 
-    def test_a_plan_or_another_target_ends_the_run(self):
+    def test_who_leaves_the_robot_ends_the_run(self):
         page = self.open_robot()
         self.start()
         page.do("target.leave")
@@ -146,7 +150,18 @@ class BusScripts(Case):
         self.start()
         self.assertEqual(self.files(), ["run-1.mcap", "run-2.mcap"])
 
-    def test_a_robot_that_is_gone_and_there_again_is_in_it(self):
+    def test_a_plan_that_is_started_ends_the_run_of_scripts(self):
+        page = self.open_robot()
+        self.start()
+        self.say(1)
+        page.do("plan.start", doc="rounds.plan.json")
+        self.wait(lambda: self.plan.value["state"] == "running", "the plan")
+        self.assertEqual(self.inputs(self.wait_whole())[-1], "end")
+        page.do("stop")
+        (about,) = self.wait_whole(2).json("/vagus/run")
+        self.assertEqual(about["plan"], "rounds.plan.json")
+
+    def test_what_others_sent_is_in_it_and_a_lost_bus_leaves_it_whole(self):
         self.open_robot()
         self.start()
         self.say(1)

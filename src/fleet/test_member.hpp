@@ -57,6 +57,13 @@ struct MemberCase {
         ASSERT_EQ(member.standing(), Member::Standing::Holding);
         actions.clear();
     }
+    // Another one, i2, has the name.
+    void stay_out() {
+        hear(Connected{});
+        connection("online", "i2");
+        name_answer("i2");
+        ASSERT_EQ(member.standing(), Member::Standing::Out);
+    }
     void take() {
         for (MemberAction& action : member.take()) actions.push_back(std::move(action));
     }

@@ -40,7 +40,9 @@ function follow(world: World, show: (tip: Tip | null) => void): () => void {
     show(null);
     if (at) cancel = world.later(kRestMs, () => show(tipOn(at)));
   };
-  const hide = () => asked ?? aim(null);
+  const hide = () => {
+    if (asked === null) aim(null);
+  };
   const rests = ({ target: at, pointerType }: PointerEvent) =>
     pointerType === 'touch' ? hide() : aim(withTip(at));
   // Out of the window; into another element is that one's "pointerover".
@@ -53,12 +55,19 @@ function follow(world: World, show: (tip: Tip | null) => void): () => void {
     asked = null;
     aim(null);
   };
+  const ask = (at: HTMLElement) => {
+    asked = target = at;
+    show(tipOn(at));
+  };
   const down = ({ target: at, pointerType }: PointerEvent) => {
+    cancel(); // of another finger
     forget();
     const found = pointerType === 'touch' ? withTip(at) : null;
-    if (found) cancel = world.later(kHoldMs, () => show(tipOn((asked = target = found))));
+    if (found) cancel = world.later(kHoldMs, () => ask(found));
   };
-  const lifted = () => asked ?? cancel();
+  const lifted = () => {
+    if (asked === null) cancel();
+  };
   /** Who asked what a button is has not pressed it. */
   const clicked = (event: MouseEvent) => {
     if (event.target instanceof Node && asked?.contains(event.target)) event.stopPropagation();

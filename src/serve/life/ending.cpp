@@ -29,10 +29,9 @@ bool may_move(const StopNode& node) {
 
 std::string not_at_rest(const StopNode& node) {
     const bool moves = node.state == StopNode::State::Moving;
-    return fmt::format(
-        "{} {}, so nothing was started. Look after the robot, then run it "
-        "again",
-        session::number_and_name(node), moves ? "did not come to rest" : "did not answer Stop");
+    return fmt::format("{} {}, so nothing was started. Check the robot, then run it again",
+                       session::number_and_name(node),
+                       moves ? "did not stop" : "did not answer Stop");
 }
 
 }  // namespace

@@ -38,9 +38,10 @@ void TendedRecording::end() {
     tell_trouble();
     if (!ended.ok()) warn_(ended.error().what);
     if (recording_->dropped() > 0) {
-        warn_(fmt::format("the disk was too slow for the recording of this run: {} samples of {} "
-                          "were left out",
-                          recording_->dropped(), samples_));
+        warn_(
+            fmt::format("the disk was too slow for the recording of this run: {} samples of {} "
+                        "were left out",
+                        recording_->dropped(), samples_));
     }
     answer_flushes(true);
     recording_.reset();

@@ -47,6 +47,7 @@ export const text = {
     'project.start': 'Close the project',
     'folder.open': 'Open a folder…',
     'project.new': 'New project…',
+    'project.make': 'Make a project of this folder',
     'template.new': 'New template…',
     'file.save': 'Save',
     'file.saveAll': 'Save all',
@@ -221,6 +222,7 @@ export const text = {
     notNow: 'Not possible now.',
     elsewhere: 'Click into the drawing first.',
     of: {
+      'project.make': 'What is open is a project.',
       'run.pause': 'Nothing is running.',
       'tests.run': 'Open a test first (NAME.test.json).',
       'tests.stop': 'No tests are running.',
@@ -445,10 +447,13 @@ export const text = {
     nodesIn: (count: number, state: string) => `${s(count, 'node', 'nodes')}: ${state}`,
     bus: 'State of the bus',
     missing: {
+      project: 'Make a project',
       target: 'No world or robot',
       node: 'No node',
       robot: 'No robot in the world',
       help: {
+        project:
+          'There is no world to run this in. Makes its folder a project with a world; for a robot of yours, choose the target instead.',
         target: 'The project names no world, and no robot is connected. Choose a target.',
         node: 'No node answers on this target. Switch the robot on, or choose another target.',
         robot: 'Nothing in this world can run a program. Open the world, then Edit, Add.',

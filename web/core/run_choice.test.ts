@@ -97,10 +97,13 @@ it('nodes of a simulator wait until its time passes for the first time', () => {
 });
 
 it('what a run lacks is told by the target, the world and the nodes', () => {
-  expect(missingFor(robot('none', [], 'none'), undefined)).toBe('target');
-  expect(missingFor(robot('none', [], 'none'), 'w.world.json')).toBeNull();
-  expect(missingFor(robot('bus', []), undefined)).toBe('node');
-  expect(missingFor(robot('simulator', []), 'w.world.json')).toBe('robot');
-  expect(missingFor(robot('bus', [], 'connecting'), undefined)).toBeNull();
-  expect(missingFor(robot('bus', ['a']), undefined)).toBeNull();
+  const world = { world: 'w.world.json' };
+  expect(missingFor(robot('none', [], 'none'), {})).toBe('target');
+  expect(missingFor(robot('none', [], 'none'), { bare: true })).toBe('project');
+  expect(missingFor(robot('none', [], 'none'), { ...world, bare: true })).toBeNull();
+  expect(missingFor(robot('none', [], 'none'), world)).toBeNull();
+  expect(missingFor(robot('bus', []), { bare: true })).toBe('node');
+  expect(missingFor(robot('simulator', []), world)).toBe('robot');
+  expect(missingFor(robot('bus', [], 'connecting'), {})).toBeNull();
+  expect(missingFor(robot('bus', ['a']), {})).toBeNull();
 });

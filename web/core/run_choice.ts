@@ -98,12 +98,16 @@ export function planName(doc: Doc): string {
   return doc.replace(/^.*\//, '').replace(/\.plan\.json$/, '');
 }
 
-export type Missing = 'target' | 'node' | 'robot';
+export type Missing = 'project' | 'target' | 'node' | 'robot';
 
-/** What a run lacks: a world or a robot, a node that answers, a robot in the world. */
-export function missingFor(robot: Robot | undefined, world: Doc | undefined): Missing | null {
+/** What a run lacks: a world or a robot (a project, where none says which), a node that answers, a robot in the world. */
+export function missingFor(
+  robot: Robot | undefined,
+  project: { world?: Doc; bare?: boolean } | undefined,
+): Missing | null {
   if (!robot) return null;
-  if (robot.kind === 'none') return world === undefined ? 'target' : null;
+  const where = project?.bare ? 'project' : 'target';
+  if (robot.kind === 'none') return project?.world === undefined ? where : null;
   if (robot.state !== 'connected' || robot.nodes.length > 0) return null;
   return robot.kind === 'bus' ? 'node' : 'robot';
 }

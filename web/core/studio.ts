@@ -209,7 +209,7 @@ export class Studio {
   }
 
   /** Leaves the project that is open, if one is, for another; what was typed into it goes along first. */
-  async openAnother<C extends 'project.open' | 'project.new'>(
+  async openAnother<C extends 'project.open' | 'project.new' | 'project.make'>(
     command: C,
     input: Commands[C]['in'],
   ): Promise<void> {

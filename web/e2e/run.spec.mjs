@@ -1,8 +1,9 @@
 // F5 runs what is on the screen: the top bar says what runs, and what cannot run is said where F5 was pressed.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { aesl, makeProject } from './support/robots.mjs';
+import { temporaryFolder } from './support/server.mjs';
 import { focused, gone, seen, test, until } from './support/studio.mjs';
 /** @import { Page, TestContext } from './support/studio.mjs' */
 
@@ -89,6 +90,30 @@ test(
   async ({ page, button }) => {
     await button(/^No world or robot/).click();
     await seen(page.getByText('No robot found yet.', { exact: false }));
+  },
+);
+
+test(
+  'a plan that was opened alone runs once its folder is a project',
+  {
+    prepare(t) {
+      const folder = temporaryFolder(t);
+      const file = join(folder, 'First.plan.json');
+      writeFileSync(file, plan('First'));
+      return { folder, words: [file] };
+    },
+  },
+  async ({ page, button, press, folder }) => {
+    const made = ['.vagus', 'First.aesl', 'First.plan.json', 'First.world.json', 'vagus.json'];
+    await shows(page, 'First');
+    await press('F5');
+    await seen(page.getByText('opened without a project; use Make a project', { exact: false }));
+    await button(/^Make a project/).click();
+    await seen(button(/^Simulator/));
+    await gone(button(/^Make a project/));
+    assert.deepEqual(readdirSync(folder).sort(), made);
+    await press('F5');
+    await seen(button(/Running: First/));
   },
 );
 

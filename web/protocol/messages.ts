@@ -972,6 +972,8 @@ export interface Project {
   folder: string;
   name: string;
   help: string;
+  /** opened without a vagus.json: project.make gives it one */
+  bare?: boolean;
   /** example it is a copy of */
   copy_of?: string;
   /** it was made of this recording, and nothing has run since: to be shown first */
@@ -1239,7 +1241,7 @@ export interface Commands {
   }; out: {
     path: string;
   } };
-  /** Opens a folder with a vagus.json, or an .aesl, plan or world alone. */
+  /** Opens a folder with a vagus.json, or with scripts, plans or worlds, or one such file alone. */
   'project.open': { in: {
     path: string;
   }; out: {
@@ -1252,6 +1254,10 @@ export interface Commands {
     /** with a small plan to begin with; a carbot always has a plan, a nearly empty one without this */
     plan: boolean;
   }; out: {
+    path: string;
+  } };
+  /** Makes the folder of what is open without a vagus.json a project, with a world to run in, and opens it. */
+  'project.make': { in: Record<never, never>; out: {
     path: string;
   } };
   /** Back to the start screen. The run ends. */
@@ -2479,7 +2485,7 @@ export const typeTable: Readonly<Record<string, string | Fields>> = {
   CodeMark: { keys: '[line(256); 16]', first: 'int(1..10000000)', last: 'int(1..10000000)' },
   FormulaWord: { name: 'line(64)', is: 'word(function|operator|constant)', form: 'line(100)', help: 'line(400)' },
   JsonStep: { do: 'word(set|remove|insert|move)', at: '[json; 100]', value: 'json?', text: 'text(2097152)?', to: 'int(0..1000000)?' },
-  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', copy_of: 'line(64)?', recording: 'Path?', plan: 'Path?', world: 'Path?', world_changed: 'bool?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
+  Project: { folder: 'line(1024)', name: 'line(200)', help: 'text(2000)', bare: 'bool?', copy_of: 'line(64)?', recording: 'Path?', plan: 'Path?', world: 'Path?', world_changed: 'bool?', scripts: '[Path; 200]', target: 'line(256)', border: 'line(1024)?' },
   FolderEntry: { name: 'line(512)', kind: 'word(folder|project|script|plan|world|recording)' },
   SharedFile: { path: 'Path', events: '[Definition; 65536]', constants: '[Definition; 65536]' },
   ListingLine: { line: 'int(0..10000000)', address: 'int(0..65535)', words: 'int(1..65535)', text: 'line(200)' },
@@ -2512,6 +2518,7 @@ export const commandTable: Readonly<Record<CommandName, { may: 'any' | 'look' | 
   'project.example': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
   'project.open': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
   'project.new': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
+  'project.make': { may: 'driver', kind: 'edit', out: { path: 'line(1024)' } },
   'project.close': { may: 'driver', kind: 'edit', out: {} },
   'project.forget': { may: 'driver', kind: 'edit', out: {} },
   'folder.list': { may: 'driver', kind: 'look', out: { path: 'line(1024)', parent: 'line(1024)', entries: '[FolderEntry; 2000]' } },

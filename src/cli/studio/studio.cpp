@@ -49,9 +49,9 @@ void add_studio(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<serve::StudioOptions>();  // owners: CLI11 and the callback
     auto no_browser = std::make_shared<bool>(false);
     takes_file(*verb->add_option("PROJECT", options->project,
-                                 "a folder with a vagus.json, an .aesl, plan or world, or a "
-                                 "recording: a project is made of its files; without it the start "
-                                 "screen"),
+                                 "the folder of a project, or of scripts, plans and worlds; "
+                                 "one such file; or a recording: a project is made of its files; "
+                                 "without it the start screen"),
                {"vagus.json", ".aesl", ".plan.json", ".world.json", ".mcap"});
     verb->add_option("--example", options->example,
                      "opens the newest copy of an example instead: --example follow-wall")

@@ -27,6 +27,10 @@ std::vector<DocFinding> check_project(const std::filesystem::path& folder,
     const auto opened = open_path(folder.string());
     if (!opened.ok()) return {finding_about("vagus.json", opened.error().what)};
     const OpenedProject& project = opened.value();
+    if (project.project_file.empty()) {
+        return {finding_about("vagus.json", folder.string() + ": expected a vagus.json in this "
+                                                              "folder, found none")};
+    }
     // A desk at which nobody sits: parts that edit declare their commands there.
     Desk desk(Access("", std::nullopt), {.send = [](ClientId, bool, std::string) {},
                                          .close = [](ClientId, std::string) {},

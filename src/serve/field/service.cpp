@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/project_border.hpp"
 #include "base/time.hpp"
 #include "fleet/topic.hpp"
 #include "net/service_manager.hpp"
@@ -138,10 +139,16 @@ private:
                     [this](auto done) {
                         bench().stop_run({"the server", life::Why::Version}, std::move(done));
                     },
-                .open =
-                    [this](const fs::path& folder) {
-                        return bench().open(folder.string(), server_.links().now());
-                    },
+                .open = [this](const fs::path& folder) -> Status {
+                    // What a robot begins with at its start is said by a file, never guessed.
+                    std::error_code failed;
+                    if (!fs::is_regular_file(folder / kProjectFileName, failed)) {
+                        return Error{Code::NotFound, folder.string() +
+                                                         ": expected a vagus.json in this "
+                                                         "folder, found none"};
+                    }
+                    return bench().open(folder.string(), server_.links().now());
+                },
                 .log = talk_.log,
                 .wall_ms = [this] { return server_.desk().wall_ms(); },
                 .plan = [this] { return bench().how_plan_is(); },

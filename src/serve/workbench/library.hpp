@@ -11,6 +11,7 @@
 
 #include "base/result.hpp"
 #include "serve/json.hpp"
+#include "serve/workbench/folder_project.hpp"
 #include "serve/workbench/kept.hpp"
 #include "serve/workbench/recorded_project.hpp"
 
@@ -47,6 +48,11 @@ public:
     Result<std::string> make_project(const std::string& name, const std::string& robot, bool plan);
     // A project around a robot that was connected to: no script yet.
     Result<std::string> make_robot_project(const std::string& target);
+
+    // The folder of what is open, made a project (folder_project.hpp).
+    Result<std::string> make_project_of(const OpenedProject& opened) const {
+        return serve::make_project_of(opened, places_.examples);
+    }
 
     // What a recording from anywhere is opened as.
     Result<RecordedProject> project_of_recording(const std::string& path) const {

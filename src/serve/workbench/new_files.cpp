@@ -85,24 +85,6 @@ constexpr Room kHall = {"[6, 4.5]", "[1.2, 1.2]",
                         R"("at": [4, 3], "angle": 0.5, "size": [0.8, 0.5])",
                         R"("at": [3, 1.2], "radius": 0.15)"};
 
-std::string world(const std::string& name, const std::string& robot, const std::string& file) {
-    const Room& room = robot == "carbot" ? kHall : kTable;
-    return fmt::format(
-        R"({{
-  "format": "vagus-world/1",
-  "name": {},
-  "size": {},
-  "objects": [
-    {{ "id": "box", "kind": "box", {} }},
-    {{ "id": "post", "kind": "cylinder", {}, "colour": [0.8, 0.3, 0.2] }}
-  ],
-  "robots": [{{ "name": "{}", "type": "{}", "at": {}, "script": {} }}]
-}}
-)",
-        quoted(name), room.size, room.box, room.post, robot == "thymio2" ? "thymio" : robot, robot,
-        room.start, quoted(file));
-}
-
 // A short way, so that there is something to see.
 constexpr const char* kDrivingPlan = R"(
   "toolboxes": ["drive"],
@@ -174,7 +156,27 @@ std::string example_or(const std::string& examples, const std::string& path,
     return text.ok() ? text.value() : otherwise;
 }
 
-std::string script_text(const std::string& robot, bool plan, const std::string& examples) {
+}  // namespace
+
+std::string new_room(const std::string& name, const std::string& robot, const std::string& script) {
+    const Room& room = robot == "carbot" ? kHall : kTable;
+    return fmt::format(
+        R"({{
+  "format": "vagus-world/1",
+  "name": {},
+  "size": {},
+  "objects": [
+    {{ "id": "box", "kind": "box", {} }},
+    {{ "id": "post", "kind": "cylinder", {}, "colour": [0.8, 0.3, 0.2] }}
+  ],
+  "robots": [{{ "name": "{}", "type": "{}", "at": {}, "script": {} }}]
+}}
+)",
+        quoted(name), room.size, room.box, room.post, robot == "thymio2" ? "thymio" : robot, robot,
+        room.start, quoted(script));
+}
+
+std::string new_scripts(const std::string& robot, bool plan, const std::string& examples) {
     if (robot == "epuck") return kEpuckScript;
     if (robot == "thymio2") {
         const std::string own = aesl(node("thymio-II", 1, kThymioScript));
@@ -184,8 +186,6 @@ std::string script_text(const std::string& robot, bool plan, const std::string& 
                       aesl(node("drive", 1, "") + node("bumper", 2, "") + node("range", 3, "") +
                            node("head", 4, "")));
 }
-
-}  // namespace
 
 std::vector<NewFile> new_project_files(const std::string& name, const std::string& robot, bool plan,
                                        const std::string& examples) {
@@ -199,8 +199,8 @@ std::vector<NewFile> new_project_files(const std::string& name, const std::strin
                            quoted(script), quoted(name + ".world.json"));
     project += drawn ? ",\n  \"start\": {\n    \"plan\": true\n  }\n}\n" : "\n}\n";
     std::vector<NewFile> files = {{"vagus.json", project},
-                                  {script, script_text(robot, plan, examples)},
-                                  {name + ".world.json", world(name, robot, script)}};
+                                  {script, new_scripts(robot, plan, examples)},
+                                  {name + ".world.json", new_room(name, robot, script)}};
     if (drawn) files.push_back({name + ".plan.json", plan_text(name, robot, plan)});
     return files;
 }

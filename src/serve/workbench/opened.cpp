@@ -6,6 +6,7 @@
 
 #include "base/project_border.hpp"
 #include "serve/project/files.hpp"
+#include "serve/workbench/folder_project.hpp"
 #include "session/project_file.hpp"
 
 namespace vagus::serve {
@@ -15,8 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kWhatOpens =
-    "open a folder with a vagus.json, a file NAME.aesl, NAME.plan.json, NAME.world.json, "
-    "or a recording NAME.mcap";
+    "open a folder with a vagus.json, or with files NAME.aesl, NAME.plan.json, NAME.world.json, "
+    "such a file alone, or a recording NAME.mcap";
 
 Result<OpenedProject> open_folder(const fs::path& folder) {
     const fs::path file = folder / kProjectFileName;
@@ -53,6 +54,31 @@ Result<OpenedProject> open_folder(const fs::path& folder) {
     return opened;
 }
 
+// One without a vagus.json: of each kind the only file is what runs.
+Result<OpenedProject> open_bare_folder(const fs::path& folder, const std::string& named) {
+    const FolderFiles files = files_of_folder(folder);
+    if (!files.any()) {
+        return Error{Code::NotFound,
+                     fmt::format("{}: expected a vagus.json in this folder, found none, nor a "
+                                 "script, plan or world; {}",
+                                 named, kWhatOpens)};
+    }
+    OpenedProject opened;
+    opened.folder = opened.file = folder.string();
+    const std::string border = project_border((folder / kProjectFileName).string());
+    opened.root = border.empty() ? folder : fs::path(border);
+    const auto inside = [&](const std::string& name) {
+        return name.empty() ? name
+                            : (folder / name).lexically_relative(opened.root).generic_string();
+    };
+    opened.name = folder.filename().string();
+    opened.plan = inside(only_one(files.plans));
+    opened.world = inside(only_one(files.worlds));
+    if (files.scripts.size() == 1) opened.scripts = {inside(files.scripts.front())};
+    for (const std::string& one : files.toolboxes) opened.toolboxes.push_back(inside(one));
+    return opened;
+}
+
 Result<OpenedProject> open_file(const fs::path& file) {
     const std::string kind = kind_of_file(file.filename().string());
     OpenedProject opened;
@@ -68,6 +94,13 @@ Result<OpenedProject> open_file(const fs::path& file) {
         opened.target.clear();
     } else if (kind == "plan") {
         opened.plan = path;
+        // What it runs in lies beside it.
+        const std::string world = one_beside(opened.name, files_of_folder(opened.folder).worlds);
+        if (!world.empty()) {
+            const fs::path beside = fs::path(opened.folder) / world;
+            opened.world = beside.lexically_relative(opened.root).generic_string();
+            opened.only.push_back(opened.world);
+        }
     } else if (kind == "world") {
         opened.world = path;
     } else {
@@ -95,9 +128,7 @@ Result<OpenedProject> open_path(const std::string& named) {
     if (file && path.filename() == kProjectFileName) return open_folder(path.parent_path());
     if (file) return open_file(path);
     if (fs::is_regular_file(path / kProjectFileName, failed)) return open_folder(path);
-    return Error{
-        Code::NotFound,
-        fmt::format("{}: expected a vagus.json in this folder, found none; {}", named, kWhatOpens)};
+    return open_bare_folder(path, named);
 }
 
 std::string OpenedProject::doc_of(const std::string& named) const {
@@ -110,6 +141,7 @@ std::string OpenedProject::doc_of(const std::string& named) const {
 nlohmann::json OpenedProject::to_json() const {
     nlohmann::json json = {{"folder", folder},   {"name", name},     {"help", help},
                            {"scripts", scripts}, {"target", target}, {"border", root.string()}};
+    if (project_file.empty()) json["bare"] = true;
     if (!copy_of.empty()) json["copy_of"] = copy_of;
     if (!recording.empty()) json["recording"] = recording;
     if (!plan.empty()) json["plan"] = plan;

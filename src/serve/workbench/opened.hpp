@@ -1,5 +1,5 @@
-// What a path that a person names opens: a folder with a vagus.json, or an .aesl, a plan, a world
-// alone.
+// What a path that a person names opens: a folder with a vagus.json, a folder without one that
+// holds scripts, plans or worlds, or an .aesl, a plan, a world alone.
 //
 //     const OpenedProject project = TRY(open_path("examples/follow-wall"));
 //     files.enter(project.root, project.only);

@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kNoWorld =
     "the project has no world to simulate; name one in vagus.json, or choose a robot";
+constexpr const char* kBareNoWorld =
+    "there is no world to simulate, for this was opened without a project; use Make a project, or "
+    "choose a robot";
 constexpr const char* kNoProject = "no project is open; open one first";
 
 // Its size and when it was written; empty: it is not there.
@@ -42,11 +45,15 @@ void Workbench::leave(const life::Cause& cause, std::function<void()> then) {
     live();
 }
 
+const char* Workbench::no_world() const {
+    return project_->project_file.empty() ? kBareNoWorld : kNoWorld;
+}
+
 Status Workbench::join_target(const std::string& target) {
     project_->target = target;
     desk_.topics().touch("studio");
     if (target == "sim") {
-        if (project_->world.empty()) return Error{Code::Unavailable, kNoWorld};
+        if (project_->world.empty()) return Error{Code::Unavailable, no_world()};
         tell_life(life::Open{});
         live();
         return Status::done();
@@ -192,7 +199,7 @@ void Workbench::start(const Call& call) {
     if (!project_) return call.fail("unavailable", kNoProject);
     if (!save_all(call)) return;
     if (!bus_ && !simulates()) {
-        if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
+        if (project_->world.empty()) return call.fail("unavailable", no_world());
         project_->target = "sim";
     }
     start_with(call, project_->plan, {.go = true});
@@ -201,7 +208,7 @@ void Workbench::start(const Call& call) {
 // `call` may say with which values, and from which actor.
 void Workbench::start_with(const Call& call, const std::string& plan, life::Start start) {
     if (!plan.empty() && !bus_ && project_->world.empty()) {
-        return call.fail("unavailable", kNoWorld);
+        return call.fail("unavailable", no_world());
     }
     if (bus_ && !target_.all_described(1)) {
         const std::string why = bus_->why();
@@ -311,7 +318,7 @@ void Workbench::reset(const Call& call) {
                          "a robot cannot be put back to its start; Reset of a node starts its "
                          "program again");
     }
-    if (project_->world.empty()) return call.fail("unavailable", kNoWorld);
+    if (project_->world.empty()) return call.fail("unavailable", no_world());
     if (!save_all(call)) return;
     tell_life(life::Open{keep(call), false, who_asks(call)});
     live();

@@ -182,6 +182,13 @@ void Workbench::declare_project_commands() {
     desk_.command("project.new", [this, open_for](const Call& call) {
         open_for(call, library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]));
     });
+    desk_.command("project.make", [this, open_for](const Call& call) {
+        if (!project_) return call.fail("unavailable", "no project is open; open one first");
+        if (!project_->project_file.empty()) {
+            return call.fail("bad_input", project_->folder + ": is a project already");
+        }
+        open_for(call, library_.make_project_of(*project_));
+    });
     desk_.command("project.close", [this](const Call& call) {
         leave({who_asks(call), life::Why::Project}, [this, call] {
             forget_project();

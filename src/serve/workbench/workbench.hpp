@@ -251,6 +251,7 @@ private:
     void declare_world_commands();
     void leave(const life::Cause& cause, std::function<void()> then);
     void choose_target(const Call& call);
+    const char* no_world() const;
     Status join_target(const std::string& target);
     bool simulates() const { return run_.has_world(); }
     RunOrder order_of(const std::string& plan, const Json& set) const;

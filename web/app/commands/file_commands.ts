@@ -35,6 +35,13 @@ export function fileCommands(studio: Studio): Command[] {
       run: overlay('project'),
     },
     {
+      id: 'project.make',
+      title: titles['project.make'],
+      group,
+      enabled: () => toAnother() && projectOf(studio)?.bare === true,
+      run: () => studio.openAnother('project.make', {}),
+    },
+    {
       id: 'template.new',
       title: titles['template.new'],
       group,

@@ -12,9 +12,10 @@ const words = text.target.missing;
 export function Missing() {
   const studio = useStudio();
   const project = useTopic('studio', {})?.project;
-  const missing = missingFor(useTopic('robot', {}), project?.world);
+  const missing = missingFor(useTopic('robot', {}), project);
   if (!project || missing === null) return null;
   const act: Record<What, () => void> = {
+    project: () => void studio.registry.run('project.make'),
     target: () => update(studio.window, (draft) => void (draft.targets = true)),
     node: () => update(studio.window, (draft) => void (draft.targets = true)),
     robot: () => void studio.registry.run('world.open'),

@@ -1,6 +1,6 @@
 // F5 runs what is on the screen: the top bar says what runs, and what cannot run is said where F5 was pressed.
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { aesl, makeProject } from './support/robots.mjs';
 import { temporaryFolder } from './support/server.mjs';
@@ -98,20 +98,22 @@ test(
   {
     prepare(t) {
       const folder = temporaryFolder(t);
-      const file = join(folder, 'First.plan.json');
+      const place = join(folder, 'plans');
+      mkdirSync(place);
+      const file = join(place, 'First.plan.json');
       writeFileSync(file, plan('First'));
-      return { folder, words: [file] };
+      return { folder, place, words: [file] };
     },
   },
-  async ({ page, button, press, folder }) => {
+  async ({ page, button, press, place }) => {
     const made = ['.vagus', 'First.aesl', 'First.plan.json', 'First.world.json', 'vagus.json'];
     await shows(page, 'First');
     await press('F5');
     await seen(page.getByText('opened without a project; use Make a project', { exact: false }));
     await button(/^Make a project/).click();
-    await seen(button(/^Simulator/));
+    await seen(button(/Simulator/));
     await gone(button(/^Make a project/));
-    assert.deepEqual(readdirSync(folder).sort(), made);
+    assert.deepEqual(readdirSync(place).sort(), made);
     await press('F5');
     await seen(button(/Running: First/));
   },

@@ -1257,7 +1257,10 @@ export interface Commands {
     path: string;
   } };
   /** Makes the folder of what is open without a vagus.json a project, with a world to run in, and opens it. */
-  'project.make': { in: Record<never, never>; out: {
+  'project.make': { in: {
+    /** that is looked at: in a folder of several it is what runs */
+    doc?: Doc;
+  }; out: {
     path: string;
   } };
   /** Back to the start screen. The run ends. */

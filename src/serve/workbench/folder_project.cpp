@@ -31,15 +31,17 @@ struct Parts {
     std::vector<std::string> toolboxes;
 };
 
-Parts parts_of(const OpenedProject& opened, const FolderFiles& files) {
-    const bool is_file = opened.file != opened.folder;
-    const std::string open = is_file ? fs::path(opened.file).filename().string() : "";
-    const std::string kind = is_file ? kind_of_file(open) : "";
+Parts parts_of(const OpenedProject& opened, const std::string& shown, const FolderFiles& files) {
+    const bool alone = opened.file != opened.folder;
+    const std::string open = fs::path(alone ? opened.file : opened.real(shown)).filename().string();
+    const std::string kind = kind_of_file(open);
     const auto part = [&](const char* of, const std::vector<std::string>& names) {
-        return kind == of ? open : is_file ? one_beside(open, names) : only_one(names);
+        const bool is_meant =
+            kind == of && std::find(names.begin(), names.end(), open) != names.end();
+        return is_meant ? open : alone ? one_beside(open, names) : only_one(names);
     };
     Parts parts;
-    parts.name = is_file ? first_name(open) : fs::path(opened.folder).filename().string();
+    parts.name = alone ? first_name(open) : fs::path(opened.folder).filename().string();
     // A script alone is a script to begin with, whatever plans lie beside it.
     if (kind != "script") parts.plan = part("plan", files.plans);
     parts.world = part("world", files.worlds);
@@ -137,11 +139,12 @@ std::string one_beside(const std::string& file, const std::vector<std::string>& 
     return same != names.end() ? *same : only_one(names);
 }
 
-Result<std::string> make_project_of(const OpenedProject& opened, const fs::path& examples) {
+Result<std::string> make_project_of(const OpenedProject& opened, const std::string& shown,
+                                    const fs::path& examples) {
     const fs::path folder = opened.folder;
     const std::string there = innermost_project((folder / kProjectFileName).string());
     if (!there.empty()) return there;
-    const Parts parts = parts_of(opened, files_of_folder(folder));
+    const Parts parts = parts_of(opened, shown, files_of_folder(folder));
     for (const NewFile& file : missing_files(parts, folder, examples)) {
         const std::string path = (folder / file.path).string();
         std::error_code failed;

@@ -27,8 +27,9 @@ std::string one_beside(const std::string& file, const std::vector<std::string>& 
 
 // Writes the vagus.json that the folder of what is open lacks, and the world and the scripts that a
 // run lacks. Nothing that is there is changed. Gives the folder to open: where the file is in a
-// project already, that one, and nothing is written. `examples`: where scripts come from.
-Result<std::string> make_project_of(const OpenedProject& opened,
+// project already, that one, and nothing is written. `shown`: the path of the document that a
+// person looks at in a folder of several; it is what runs. `examples`: where scripts come from.
+Result<std::string> make_project_of(const OpenedProject& opened, const std::string& shown,
                                     const std::filesystem::path& examples);
 
 }  // namespace vagus::serve

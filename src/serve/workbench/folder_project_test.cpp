@@ -42,8 +42,8 @@ struct FolderProjectTest : testing::Test {
         return found.ok() ? found.value() : OpenedProject();
     }
     // Made, opened, and run until its nodes have their scripts.
-    OpenedProject made(const std::string& name) const {
-        const auto path = make_project_of(opened(name), test::examples());
+    OpenedProject made(const std::string& name, const std::string& shown = "") const {
+        const auto path = make_project_of(opened(name), shown, test::examples());
         EXPECT_TRUE(path.ok()) << path.error().what;
         if (!path.ok()) return {};
         const OpenedProject project = opened(fs::relative(path.value(), folder.path()).string());
@@ -89,7 +89,7 @@ TEST_F(FolderProjectTest, AFolderInAProjectCountsItsPathsFromThatOne) {
     write("outer/in/way.plan.json", kPlan);
     const OpenedProject project = opened("outer/in");
     EXPECT_EQ(project.plan, "in/way.plan.json");
-    const auto path = make_project_of(project, test::examples());
+    const auto path = make_project_of(project, "", test::examples());
     ASSERT_TRUE(path.ok()) << path.error().what;
     EXPECT_EQ(path.value(), (folder / "outer").string());
     EXPECT_FALSE(fs::exists(folder / "outer/in/vagus.json"));
@@ -140,10 +140,16 @@ TEST_F(FolderProjectTest, APlanOverTheScriptOfAThymioGetsAThymio) {
     EXPECT_NE(world.find("\"type\": \"thymio2\""), std::string::npos) << world;
 }
 
+TEST_F(FolderProjectTest, InAFolderOfSeveralScriptsTheOneThatIsLookedAtRuns) {
+    for (const char* name : {"h/one.aesl", "h/two.aesl"}) copy("thymio/explore.aesl", name);
+    EXPECT_EQ(made("h", "two.aesl").scripts, std::vector<std::string>{"two.aesl"});
+    EXPECT_FALSE(fs::exists(folder / "h/h.aesl"));
+}
+
 TEST_F(FolderProjectTest, WhatIsThereIsNeverReplaced) {
     write("e/way.plan.json", kPlan);
     fs::create_directories(folder / "e/way.aesl");  // a folder in the place of the script
-    const auto path = make_project_of(opened("e/way.plan.json"), test::examples());
+    const auto path = make_project_of(opened("e/way.plan.json"), "", test::examples());
     ASSERT_FALSE(path.ok());
     EXPECT_NE(path.error().what.find("way.aesl: there is such a file already"), std::string::npos)
         << path.error().what;
@@ -153,7 +159,7 @@ TEST_F(FolderProjectTest, WhatIsThereIsNeverReplaced) {
 TEST_F(FolderProjectTest, AFileOfAProjectLeadsToIt) {
     write("f/vagus.json", "{ \"format\": \"vagus-project/1\", \"name\": \"F\" }");
     write("f/in/way.plan.json", kPlan);
-    const auto path = make_project_of(opened("f/in/way.plan.json"), test::examples());
+    const auto path = make_project_of(opened("f/in/way.plan.json"), "", test::examples());
     ASSERT_TRUE(path.ok()) << path.error().what;
     EXPECT_EQ(path.value(), (folder / "f").string());
 }

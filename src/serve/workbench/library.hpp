@@ -50,8 +50,9 @@ public:
     Result<std::string> make_robot_project(const std::string& target);
 
     // The folder of what is open, made a project (folder_project.hpp).
-    Result<std::string> make_project_of(const OpenedProject& opened) const {
-        return serve::make_project_of(opened, places_.examples);
+    Result<std::string> make_project_of(const OpenedProject& opened,
+                                        const std::string& shown) const {
+        return serve::make_project_of(opened, shown, places_.examples);
     }
 
     // What a recording from anywhere is opened as.

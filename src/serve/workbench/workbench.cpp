@@ -187,7 +187,8 @@ void Workbench::declare_project_commands() {
         if (!project_->project_file.empty()) {
             return call.fail("bad_input", project_->folder + ": is a project already");
         }
-        open_for(call, library_.make_project_of(*project_));
+        const std::string doc = call.in.value("doc", "");
+        open_for(call, library_.make_project_of(*project_, doc.substr(0, doc.find('#'))));
     });
     desk_.command("project.close", [this](const Call& call) {
         leave({who_asks(call), life::Why::Project}, [this, call] {

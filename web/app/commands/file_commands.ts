@@ -39,7 +39,11 @@ export function fileCommands(studio: Studio): Command[] {
       title: titles['project.make'],
       group,
       enabled: () => toAnother() && projectOf(studio)?.bare === true,
-      run: () => studio.openAnother('project.make', {}),
+      run() {
+        // That there is no world is true no more.
+        update(studio.window, (draft) => void (draft.toasts = []));
+        return studio.openAnother('project.make', { doc: shown() ?? undefined });
+      },
     },
     {
       id: 'template.new',

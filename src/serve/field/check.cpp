@@ -28,8 +28,7 @@ std::vector<DocFinding> check_project(const std::filesystem::path& folder,
     if (!opened.ok()) return {finding_about("vagus.json", opened.error().what)};
     const OpenedProject& project = opened.value();
     if (project.project_file.empty()) {
-        return {finding_about("vagus.json", folder.string() + ": expected a vagus.json in this "
-                                                              "folder, found none")};
+        return {finding_about("vagus.json", no_project_file_in(folder.string()).what)};
     }
     // A desk at which nobody sits: parts that edit declare their commands there.
     Desk desk(Access("", std::nullopt), {.send = [](ClientId, bool, std::string) {},

@@ -143,9 +143,7 @@ private:
                     // What a robot begins with at its start is said by a file, never guessed.
                     std::error_code failed;
                     if (!fs::is_regular_file(folder / kProjectFileName, failed)) {
-                        return Error{Code::NotFound, folder.string() +
-                                                         ": expected a vagus.json in this "
-                                                         "folder, found none"};
+                        return no_project_file_in(folder.string());
                     }
                     return bench().open(folder.string(), server_.links().now());
                 },

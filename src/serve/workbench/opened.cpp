@@ -112,6 +112,10 @@ Result<OpenedProject> open_file(const fs::path& file) {
 
 }  // namespace
 
+Error no_project_file_in(const std::string& folder) {
+    return Error{Code::NotFound, folder + ": expected a vagus.json in this folder, found none"};
+}
+
 Result<OpenedProject> open_path(const std::string& named) {
     std::error_code failed;
     const fs::path path = fs::canonical(named, failed);

@@ -42,6 +42,9 @@ struct OpenedProject {
     nlohmann::json to_json() const;  // Project of the protocol
 };
 
+// What robots need, and a folder that the studio opens may lack.
+Error no_project_file_in(const std::string& folder);
+
 // The Error says what can be opened.
 Result<OpenedProject> open_path(const std::string& path);
 

@@ -183,12 +183,7 @@ void Workbench::declare_project_commands() {
         open_for(call, library_.make_project(call.in["name"], call.in["robot"], call.in["plan"]));
     });
     desk_.command("project.make", [this, open_for](const Call& call) {
-        if (!project_) return call.fail("unavailable", "no project is open; open one first");
-        if (!project_->project_file.empty()) {
-            return call.fail("bad_input", project_->folder + ": is a project already");
-        }
-        const std::string doc = call.in.value("doc", "");
-        open_for(call, library_.make_project_of(*project_, doc.substr(0, doc.find('#'))));
+        open_for(call, project_made_for(call.in.value("doc", "")));
     });
     desk_.command("project.close", [this](const Call& call) {
         leave({who_asks(call), life::Why::Project}, [this, call] {
@@ -216,6 +211,14 @@ void Workbench::declare_project_commands() {
         }
         call.done(list_folder(folder.string()));
     });
+}
+
+Result<std::string> Workbench::project_made_for(const std::string& doc) const {
+    if (!project_) return Error{Code::Unavailable, "no project is open; open one first"};
+    if (!project_->project_file.empty()) {
+        return Error{Code::BadInput, project_->folder + ": is a project already"};
+    }
+    return library_.make_project_of(*project_, doc.substr(0, doc.find('#')));
 }
 
 Json Workbench::list_folder(const std::string& path) const {

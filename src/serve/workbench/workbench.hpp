@@ -208,6 +208,7 @@ private:
     void say(const std::string& kind, const std::string& text);
     double clock() const;
     Json studio_document() const;
+    Result<std::string> project_made_for(const std::string& doc) const;
     Json list_folder(const std::string& path) const;
 
     // ---- plan_debugging.cpp: breakpoints of plans, events by hand ----

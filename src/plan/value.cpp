@@ -162,7 +162,31 @@ std::string text_of(double number) {
     return (negative ? "-" : "") + plain;
 }
 
+namespace {
+
+// What arithmetic of doubles adds to a short number: 0.49000000000000005 is 0.49.
+constexpr double kNoise = 1e-12;
+
+double rounded_to(int digits, double number) {
+    std::array<char, 40> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
+                                   std::chars_format::scientific, digits - 1);
+    double rounded = number;
+    std::from_chars(buffer.data(), end.ptr, rounded);
+    return rounded;
+}
+
+std::string in_six_digits(double number) {
+    const double six = rounded_to(6, number);
+    const bool rounder = six == rounded_to(5, number);
+    const bool same = std::abs(six - number) <= kNoise * std::abs(number);
+    return text_of(rounder && !same ? number : six);
+}
+
+}  // namespace
+
 std::string in_words(const Value& value) {
+    if (value.type() == Type::Float) return in_six_digits(value.number());
     if (value.type() == Type::String) return json_quote(value.string());
     const Result<std::string> text = text_of(value);
     return text.ok() ? text.value() : "an object";

@@ -68,7 +68,8 @@ Value default_of(Type type);
 
 // The fewest digits that read back as the same number (P10): `0.1`, `30`, `-0`, `1e+20`.
 std::string text_of(double number);
-// As in a sentence: a text in quotes, "an object".
+// As in a sentence: a text in quotes, "an object", a float of six digits. One that six digits would
+// make a rounder number keeps all of its own, so that 29.9999999 is not read as 30.
 std::string in_words(const Value& value);
 // Any value but an object as text.
 Result<std::string> text_of(const Value& value);

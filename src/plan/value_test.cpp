@@ -29,6 +29,20 @@ Value text(std::string_view value) {
     return Value(std::string(value));
 }
 
+TEST(Sentences, HaveSixDigitsOfAFloatThatHasMore) {
+    EXPECT_EQ(in_words(Value{29.83247184753418}), "29.8325");
+    EXPECT_EQ(in_words(Value{-1.2837483}), "-1.28375");
+    EXPECT_EQ(in_words(Value{0.1 + 0.2}), "0.3");  // 0.30000000000000004
+    EXPECT_EQ(in_words(Value{1234567.0}), "1234570");
+    EXPECT_EQ(in_words(Value{20.0}), "20");
+    EXPECT_EQ(in_words(Value{0.0}), "0");
+    // Read as what they are compared with, they would be no mistake.
+    EXPECT_EQ(in_words(Value{29.9999999}), "29.9999999");
+    EXPECT_EQ(in_words(Value{30.000001}), "30.000001");
+    EXPECT_EQ(in_words(Value{1e300}), "1e+300");
+    EXPECT_EQ(in_words(Value{int64_t{12345678}}), "12345678");
+}
+
 TEST(Conversion, FloatsRoundHalfAwayFromZeroToInts) {
     const std::pair<double, std::string_view> cases[] = {
         {2.5, "3"},

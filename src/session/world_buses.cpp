@@ -34,9 +34,9 @@ Status load_scripts(SimSession& session, sim::RobotId robot, const ProjectFile& 
 Result<std::unique_ptr<WorldBuses>> WorldBuses::open(const std::string& path,
                                                      const SimOptions& options) {
     const std::string text = TRY(read_file(path));
+    auto common = TRY(open_sim_text(path, text, options, Projects::Run));
     // make_unique cannot reach the constructor.
-    std::unique_ptr<WorldBuses> made(
-        new WorldBuses(TRY(open_sim_text(path, text, options, Projects::Run)), options.traced));
+    std::unique_ptr<WorldBuses> made(new WorldBuses(std::move(common), options.traced));
     const sim::WorldDefinition& definition = made->world().definition();
     SimOptions of_robot = options;
     of_robot.heard = true;

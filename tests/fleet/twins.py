@@ -81,8 +81,9 @@ class Numbers(Versions):
         bus = f"tcp:127.0.0.1:{listening(switch)}"
         self.enterContext(vagus("node", "--id", 1, "--name", "rover", "--connect", bus))
         folder = projects.bus(self.folder / "rover", bus, script="", fleet={"name": "lab"})
+        projects.write(folder, "pages/index.html", "<!doctype html>\n")
         robot = self.enterContext(vagus("serve", folder, "--start", "--port", 0, "--data", folder / "data", "--config", folder / "config",
-                                        "--fleet", self.target, "--robot", "r1", *self.login("r1")))
+                                        "--pages", folder / "pages", "--fleet", self.target, "--robot", "r1", *self.login("r1")))
         robot.wait_line("fleet: this robot is")
         self.wait_state("r1", "running")
         self.enterContext(vagus("node", "--id", 1, "--name", "twin", "--connect", bus))

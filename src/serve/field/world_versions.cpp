@@ -53,9 +53,10 @@ WorldVersions::WorldVersions(embed::RobotsRun& run, WorldVersionsOptions options
 
 Result<std::unique_ptr<WorldVersions>> WorldVersions::open(embed::RobotsRun& run,
                                                            WorldVersionsOptions options) {
+    TemporaryFolder own = TRY(TemporaryFolder::make("world-versions"));
     // make_unique cannot reach the constructor.
     return std::unique_ptr<WorldVersions>(
-        new WorldVersions(run, std::move(options), TRY(TemporaryFolder::make("world-versions"))));
+        new WorldVersions(run, std::move(options), std::move(own)));
 }
 
 WorldVersions::~WorldVersions() {

@@ -23,8 +23,9 @@ Shelf::Shelf(TemporaryFolder folder)
     : folder_(std::move(folder)), token_(hex_of(random_bytes(kShelfTokenBytes))) {}
 
 Result<std::unique_ptr<Shelf>> Shelf::open(const ShelfOptions& options, const std::string& bytes) {
+    TemporaryFolder own = TRY(TemporaryFolder::make("shelf"));
     // make_unique cannot reach the constructor.
-    std::unique_ptr<Shelf> shelf(new Shelf(TRY(TemporaryFolder::make("shelf"))));
+    std::unique_ptr<Shelf> shelf(new Shelf(std::move(own)));
     const std::filesystem::path folder = shelf->folder_.path();
     TRY(write_file(folder / "index.html", "A version of a fleet of Vagus.\n"));
     TRY(write_file(folder / shelf->token_, bytes));

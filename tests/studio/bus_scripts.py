@@ -83,7 +83,7 @@ class BusScripts(Case):
     def test_the_clock_of_the_recording_is_that_of_the_timeline(self):
         page = self.open_robot()
         history = page.watch("history")
-        self.wait(lambda: history.value["to"] > 0.5, "time before the run")
+        self.wait(lambda: history.value and history.value["to"] > 0.5, "time before the run")
         self.start()
         self.say(3)
         (told,) = self.events("told")

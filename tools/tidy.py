@@ -123,7 +123,7 @@ LONG_FUNCTIONS = {
     "src/vm/": "the instruction loop is one picture",
 }
 SLEEPS = re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep)\s*\(|(?<![\w.])sleep\s*\(\s*\d")
-TRY_IN_NEW = re.compile(r"\bnew [\w:<>]+\([^;]*\bTRY\(")
+TRY_THAT_LEAKS = re.compile(r"\bnew [\w:<>]+\([^;]*\bTRY\(|\{[^{};()\n]*,\s*TRY\(|\{\s*\"[^\"]*\", TRY\(|,\s*\.\w+ = TRY\(")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
 # Of sentences that people read: the words to write instead are in docs/STYLE.md, "Words".
 OLD_WORDS = re.compile(r"\b(anew|mend(?:s|ed|ing)?|must be fed|comes? to stand|came to stand|(?:give|gives|gave|given|giving) up"
@@ -169,7 +169,7 @@ class Checker:
         if self.path.endswith(".hpp") and "#pragma once" not in self.lines:
             self.say(1, "a header begins with its sentence and #pragma once")
         if self.module() and not self.path.endswith(".inl") and not self.is_test():
-            self.check_new()
+            self.check_try()
             self.check_functions()
         return self.breaches
 
@@ -250,11 +250,12 @@ class Checker:
             if EXAMPLE_LINE.match(line) and TWO_STATEMENTS.search(bare(line)):
                 self.say(number, "an example that has lost its line ends: one statement a line, as in code")
 
-    def check_new(self):
-        """The memory of `new` is there before its arguments: a TRY that leaves among them leaks it."""
-        for found in TRY_IN_NEW.finditer("\n".join(self.lines)):
-            number = "\n".join(self.lines)[: found.start()].count("\n") + 1
-            self.say(number, "TRY among the arguments of new leaks when it leaves: put its value into a variable before")
+    def check_try(self):
+        """The memory of `new` is there before its arguments, and g++ destroys no member of a list in braces: a TRY that leaves leaks."""
+        text = "\n".join(self.lines)
+        for found in TRY_THAT_LEAKS.finditer(text):
+            number = text[: found.start()].count("\n") + 1
+            self.say(number, "TRY among the arguments of new, or in braces, leaks when it leaves: put its value into a variable before")
 
     def check_functions(self):
         """A function's body starts at a line that ends in `{` and is not a type or namespace, at depth 0 of its scope."""
@@ -375,6 +376,8 @@ EXAMPLES = [  # path, text, what must be said of it
     ("src/hub/a.cpp", "// Takes the link along.\n// Takes it away.\n", "a.cpp:2: \"Takes it away\""),
     ("src/hub/a.cpp", "void f(int a) {\n" + "    g();\n" * 60 + "}\n", "a function of 62 lines"),
     ("src/hub/a.cpp", "own.reset(new Hub(options,\n    TRY(name_of(file))));\n", "a.cpp:1: TRY among the arguments of new"),
+    ("src/hub/a.cpp", "return Way{.from = from, .rest = {},\n    .to = TRY(place_of(text))};\n", "or in braces, leaks"),
+    ("src/hub/a.cpp", "asked.push_back({name, TRY(place_of(name))});\n", "or in braces, leaks"),
     ("src/hub/a.cpp", '#include "hub.hpp"\n', "write the whole path"),
 ]
 

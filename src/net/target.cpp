@@ -195,7 +195,8 @@ Result<Target> long_tcp(std::string_view text, std::string_view rest) {
     place.host = parameters.text("host", "localhost");
     if (place.host.empty()) return wrong(text, "the host is empty; write host=localhost");
     place.port = TRY(parameters.number<uint16_t>("port", 0));
-    return Target{.place = place, .use = Use::Connect, .remap = TRY(parameters.remap())};
+    const auto remap = TRY(parameters.remap());
+    return Target{.place = place, .use = Use::Connect, .remap = remap};
 }
 
 Result<Target> long_tcpin(std::string_view text, std::string_view rest) {
@@ -205,7 +206,8 @@ Result<Target> long_tcpin(std::string_view text, std::string_view rest) {
     place.host = parameters.text("address", "127.0.0.1");
     if (place.host.empty()) return wrong(text, "the address is empty; write address=127.0.0.1");
     place.port = TRY(parameters.number<uint16_t>("port", kTcpinDefaultPort));
-    return Target{.place = place, .use = Use::Listen, .remap = TRY(parameters.remap())};
+    const auto remap = TRY(parameters.remap());
+    return Target{.place = place, .use = Use::Listen, .remap = remap};
 }
 
 Status check_8n1(const Parameters& parameters) {
@@ -236,7 +238,8 @@ Result<Target> long_serial(std::string_view text, std::string_view rest) {
     const std::string dtr = parameters.text("dtr", "true");
     if (dtr != "true" && dtr != "false") return wrong(text, "dtr is 'true' or 'false'");
     place.dtr = dtr == "true" ? ModemLine::Set : ModemLine::Leave;
-    return Target{.place = place, .use = Use::Connect, .remap = TRY(parameters.remap())};
+    const auto remap = TRY(parameters.remap());
+    return Target{.place = place, .use = Use::Connect, .remap = remap};
 }
 
 Result<Target> long_can(std::string_view text, std::string_view rest) {
@@ -244,7 +247,8 @@ Result<Target> long_can(std::string_view text, std::string_view rest) {
     TRY(parameters.check_keys(kCanKeys));
     const CanPlace place{parameters.text("if", "can0")};
     if (place.interface.empty()) return wrong(text, "the interface is empty; write if=can0");
-    return Target{.place = place, .use = Use::Connect, .remap = TRY(parameters.remap())};
+    const auto remap = TRY(parameters.remap());
+    return Target{.place = place, .use = Use::Connect, .remap = remap};
 }
 
 struct Protocol {

@@ -176,8 +176,8 @@ Status LogPoints::add(size_t number, const LogWish& wish) {
     const bool of_robot = is_fleet() && wish.where.find("/@") != std::string::npos;
     if (wish.where.starts_with('@') || of_robot) return add_element(number, wish);
     const size_t colon = wish.where.rfind(':');
-    OfNode made{
-        .number = number, .wish = wish, .node = {}, .line = 0, .values = TRY(values_of(wish))};
+    auto values = TRY(values_of(wish));
+    OfNode made{.number = number, .wish = wish, .node = {}, .line = 0, .values = std::move(values)};
     int line = 0;
     if (colon != std::string::npos) {
         const std::string digits = wish.where.substr(colon + 1);

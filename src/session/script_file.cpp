@@ -53,7 +53,8 @@ Result<ScriptFile> read_script_file(std::string_view text, const std::string& pa
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     const size_t start = text.find_first_not_of(" \t\r\n");
     if (start != std::string_view::npos && text[start] == '<') {
-        return ScriptFile{path, false, TRY(aesl::parse_project(text, path))};
+        auto project = TRY(aesl::parse_project(text, path));
+        return ScriptFile{path, false, std::move(project)};
     }
     if (const auto other = other_format(text, FileFormat::Script)) {
         return Error{Code::BadInput, at_place(path, {1, 1}, *other)};

@@ -92,7 +92,10 @@ Status refuse_to_drive(const Candidate& node) {
 Result<Candidate> only_node(conformance::Line& line, const std::vector<uint16_t>& ids,
                             const std::string& target) {
     if (ids.empty()) return Error{Code::NotFound, "no node answers on " + target};
-    if (ids.size() == 1) return Candidate{ids[0], TRY(conformance::describe(line, ids[0]))};
+    if (ids.size() == 1) {
+        auto described = TRY(conformance::describe(line, ids[0]));
+        return Candidate{ids[0], std::move(described)};
+    }
     std::string list;
     for (const uint16_t id : ids) list += (list.empty() ? "" : ", ") + std::to_string(id);
     return Error{Code::BadInput,
@@ -106,7 +109,8 @@ Result<Candidate> named_node(conformance::Line& line, const std::vector<uint16_t
     std::string others;
     for (const uint16_t id : ids) {
         if (number && *number != id) continue;
-        Candidate node{id, TRY(conformance::describe(line, id))};
+        auto described = TRY(conformance::describe(line, id));
+        Candidate node{id, std::move(described)};
         if (number || node.target.name == options.node) return node;
         others += (others.empty() ? "; there is " : ", ") + name_of(node);
     }

@@ -124,10 +124,14 @@ Verdict net_load(NetSession& session, const session::ScriptFile& scripts, const 
     session.take_events();
     std::vector<Asked> asked;
     for (const Job& job : jobs) {
-        asked.push_back({job.id, TRY(session.network().load(job.id, *job.program))});
+        const auto sent = TRY(session.network().load(job.id, *job.program));
+        asked.push_back({job.id, sent});
     }
     // A node answers in order: a fault of the first moment comes before the answer to this.
-    for (const Job& job : jobs) asked.push_back({job.id, TRY(session.network().query(job.id))});
+    for (const Job& job : jobs) {
+        const auto sent = TRY(session.network().query(job.id));
+        asked.push_back({job.id, sent});
+    }
     const std::vector<debug::Event> events = TRY(wait_all(session, asked));
     const Failures failures = complain_failed(asked, events);
     std::erase_if(jobs, [&failures](const Job& job) { return failures.nodes.contains(job.id); });

@@ -147,7 +147,10 @@ Verdict net_control(NetSession& session, debug::Control::Kind act,
         TRY(session.nodes(named, halts ? NetSession::Until::Everybody : NetSession::Until::Named));
     session.take_events();
     std::vector<Asked> asked;
-    for (const debug::NodeId id : ids) asked.push_back({id, TRY(ask(session.network(), act, id))});
+    for (const debug::NodeId id : ids) {
+        const auto sent = TRY(ask(session.network(), act, id));
+        asked.push_back({id, sent});
+    }
     const std::vector<debug::Event> events = TRY(wait_all(session, asked));
     if (halts) (void)TRY(brake_others(session, ids));
     say_notes(session, events);

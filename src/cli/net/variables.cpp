@@ -26,7 +26,8 @@ Result<std::vector<Wanted>> wanted_of(NetSession& session, debug::NodeId id,
     }
     std::vector<Wanted> wanted;
     for (const std::string& name : typed) {
-        wanted.push_back({name, TRY(session.network().variable(id, name))});
+        const auto variable = TRY(session.network().variable(id, name));
+        wanted.push_back({name, variable});
     }
     return wanted;
 }

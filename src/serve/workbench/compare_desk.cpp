@@ -39,8 +39,9 @@ Result<Json> differences_of(std::string_view before, const std::string& name,
                                  "compare them with `vagus plan diff`",
                                  name, doc, all.size(), kDifferencesToldMax)};
     }
+    const std::string saved = TRY(plan::format_plan(before, name));
     return Json{{"version", now.version},
-                {"before", TRY(plan::format_plan(before, name))},
+                {"before", saved},
                 {"differences", Json::parse(plan::format_json(all))}};
 }
 

@@ -3,7 +3,6 @@
 
 import type { Happening, NodeId } from '../protocol/messages';
 import type { Connection } from './connection';
-import { csvOf } from './csv';
 import { Emitter } from './emitter';
 
 /** As many are kept in the page. */
@@ -188,23 +187,4 @@ export class Filtered {
     this.seen = items.at(-1);
     return this.shown;
   }
-}
-
-/** Happenings as a table for other programs: always these columns; arguments share one. */
-export function happeningsCsv(items: readonly Happening[]): string {
-  return csvOf([
-    ['run', 'time', 'wall', 'kind', 'node', 'source', 'name', 'text', 'args'],
-    ...items.map(({ run, t, wall, kind, node, source, name, text, args }) => [
-      run,
-      t,
-      // Of a run that was run again nobody knows it.
-      wall === 0 ? '' : new Date(wall).toISOString(),
-      kind,
-      node,
-      source,
-      name,
-      text,
-      args.join(' '),
-    ]),
-  ]);
 }

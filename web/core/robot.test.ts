@@ -3,14 +3,8 @@ import { describe, expect, test, vi } from 'vitest';
 import type { Happening, Variable } from '../protocol/messages';
 import { Connection } from './connection';
 import { csvOf } from './csv';
-import {
-  allEvents,
-  Filtered,
-  Happenings,
-  happeningsCsv,
-  kHappeningsMax,
-  passes,
-} from './happenings';
+import { allEvents, Filtered, Happenings, kHappeningsMax, passes } from './happenings';
+import { happeningsCsv } from './happenings_csv';
 import { readWord, readWords, shortCount, shownRate, shownWord } from './numbers';
 import { added, asPick, kPlanNode, moved, pickKey, placeOf, readPick, readPicks } from './picks';
 import { kCurvesMax, noPlot, plotJson, readPlot, sourcesOf, withAxis, withCurve } from './plot';

@@ -34,6 +34,21 @@ const parsed = (/** @type {Page} */ page, /** @type {string} */ svg) =>
     };
   }, svg);
 
+test('events are saved as CSV where nobody has looked at them', wall, async (studio) => {
+  const { page, press, command } = studio;
+  await drawn(studio);
+  await press('F5');
+  await seen(page.getByRole('button', { name: /Running/ }));
+  const csv = await downloaded(page, () => command('Save the events as CSV'));
+  assert.equal(csv.name, 'events.csv');
+  const [head, ...rows] = csv.bytes.toString().trim().split('\r\n');
+  assert.equal(head, 'run,time,wall,kind,node,source,name,text,args');
+  assert.ok(
+    rows.some((row) => row.split(',')[3] === 'appeared'),
+    rows.join(),
+  );
+});
+
 test('the whole plan is exported as SVG, in the colours of the theme', wall, async (studio) => {
   const { page, button, command } = studio;
   await drawn(studio);

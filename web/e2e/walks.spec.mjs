@@ -45,6 +45,36 @@ test(
   },
 );
 
+test(
+  'letters typed before a form is loaded are in its field',
+  {},
+  async ({ page, press, type, editor }) => {
+    let come = () => {};
+    const typed = new Promise((done) => (come = () => done(undefined)));
+    await page.route('**/assets/new_project-*.js', async (route) => {
+      await typed;
+      await route.continue();
+    });
+    await seen(page.getByRole('heading', { name: 'Start' }));
+    const asked = page.waitForRequest('**/assets/new_project-*.js');
+    await press('Alt+n');
+    await type('ahead');
+    await asked;
+    await type('-of it');
+    come();
+    const name = page.getByRole('textbox', { name: 'Name' });
+    await until('all of it is there', async () => (await name.inputValue()) === 'ahead-of it');
+    await type('s end');
+    assert.equal(await name.inputValue(), 'ahead-of its end');
+    // The same up to the Enter that creates it; the part is loaded by now.
+    await press('Escape', 'Alt+n');
+    await type('early');
+    await press('Enter');
+    await seen(editor('thymio-II'));
+    await seen(page.getByRole('banner').getByText('early'));
+  },
+);
+
 test('what is half typed in a form is of its own file', { prepare: twoPlans }, async (studio) => {
   const { page, layout, type, tab } = studio;
   await layout('Draw');

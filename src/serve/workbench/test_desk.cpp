@@ -134,6 +134,9 @@ Status TestDesk::begin(const std::vector<std::string>& paths, bool scripts) {
     for (const std::string& path : paths) tests_.push_back({.path = path});
     coverage_ = {};
     changed_.clear();
+    began_with_.clear();
+    bool more = false;
+    for (const FileInfo& file : files_.list(more)) began_with_[file.path] = stamp_of(file.path);
     told_ = 0;
     touch();
     return Status::done();
@@ -160,9 +163,25 @@ void TestDesk::end(State how, std::string why) {
     touch();
 }
 
+// A file that was made or saved just before they began is told of again when the folder is listed.
 void TestDesk::text_changed(const std::string& path) {
-    if (state_ == State::None || !changed_.insert(path).second) return;
-    touch();
+    if (state_ == State::None) return;
+    const auto before = began_with_.find(path);
+    const bool same = stamp_of(path) == (before == began_with_.end() ? Stamp{} : before->second);
+    if (same && !files_.is_unsaved(path)) return;
+    if (changed_.insert(path).second) touch();
+}
+
+TestDesk::Stamp TestDesk::stamp_of(const std::string& path) const {
+    Stamp stamp;
+    std::error_code failed;
+    const fs::path file = real(path);
+    stamp.exists = fs::exists(file, failed);
+    // That of a folder changes with what others put into it.
+    if (!stamp.exists || fs::is_directory(file, failed)) return stamp;
+    stamp.written = fs::last_write_time(file, failed);
+    stamp.size = fs::file_size(file, failed);
+    return stamp;
 }
 
 bool TestDesk::has_recording(const std::string& path) const {

@@ -7,7 +7,10 @@
 //     tests.text_changed("Wall.test.json");      // what was counted is of another text
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -44,7 +47,7 @@ public:
 
     void tick(Time now);
     Time next_tick() const;
-    // A text is another one than it was when the run began.
+    // Counts only if it is another one than it was when the run began.
     void text_changed(const std::string& path);
     // Of a run that failed: a path that no document has.
     bool has_recording(const std::string& path) const;
@@ -69,11 +72,20 @@ private:
         bool is_over() const { return !refused.empty() || (runs > 0 && done == runs); }
     };
 
+    // Of a file on disk, or of none.
+    struct Stamp {
+        bool exists = false;
+        std::filesystem::file_time_type written{};
+        uintmax_t size = 0;
+        bool operator==(const Stamp&) const = default;
+    };
+
     void run(const Call& call);
     void stop(const Call& call);
     Result<std::vector<std::string>> paths_of(const Call& call) const;
     Status begin(const std::vector<std::string>& paths, bool scripts);
     std::string real(const std::string& path) const;
+    Stamp stamp_of(const std::string& path) const;
     void hear(const Packet& packet);
     void planned(const std::vector<trial::PlannedTest>& tests);
     void take(trial::SeedTold told);
@@ -101,6 +113,7 @@ private:
     TellingProcess process_;
     std::vector<Test> tests_;
     trial::Coverage coverage_;  // by document instead of by file
+    std::map<std::string, Stamp> began_with_;
     std::set<std::string> changed_;
     size_t told_ = 0;  // failures
     Time now_{};

@@ -176,6 +176,20 @@ TEST_F(TestDeskTest, CoverageIsSummedByDocumentUntilItsTextChanges) {
     EXPECT_FALSE(document("coverage", {{"doc", "A.test.json"}}).contains("plan"));
 }
 
+TEST_F(TestDeskTest, WhatWasMadeBeforeTheRunAndIsToldOfDuringItHasNotChanged) {
+    ASSERT_TRUE(files.make("New.test.json", kTest).ok());
+    begin({{"tests", {"New.test.json"}}});
+    tests.text_changed("New.test.json");
+    EXPECT_EQ(shown()["changed"], Json::array());
+    // What comes, changes or goes after its beginning has.
+    ASSERT_TRUE(files.make("Later.test.json", kTest).ok());
+    EXPECT_EQ(shown()["changed"], Json({"Later.test.json"}));
+    write("A.test.json", "{}");
+    tests.text_changed("A.test.json");
+    ASSERT_TRUE(files.remove("New.test.json").ok());
+    EXPECT_EQ(shown()["changed"], Json({"A.test.json", "Later.test.json", "New.test.json"}));
+}
+
 TEST_F(TestDeskTest, LinesOfAScriptCountFromItsBeginning) {
     write("two.aesl",
           "<!DOCTYPE aesl-source>\n<network>\n<node nodeId=\"1\" name=\"a\">var x\nx = 1\n"

@@ -1,15 +1,13 @@
 // Variables, events, plots and nodes: what can be done with them by a command.
 
-import { happeningsCsv } from '../../core/happenings';
 import { pickKey, type Pick } from '../../core/picks';
 import { sourceKey, sourcesOf, withCurve, withoutCurve, type Source } from '../../core/plot';
 import type { Command } from '../../core/registry';
 import type { Studio } from '../../core/studio';
-import { revealPanel, toast, updateEvents } from '../../core/window_state';
+import { revealPanel, updateEvents } from '../../core/window_state';
 import { takeFocus } from '../parts/take_focus';
 import { text } from '../text';
 import { copyText } from './clipboard';
-import { plotPicture } from './plot_handles';
 import { download } from './download';
 import { projectOf, robotOf, drives } from './looks';
 
@@ -20,6 +18,7 @@ export function robotCommands(studio: Studio): Command[] {
   const open = () => projectOf(studio) !== null;
   const plotted = () => studio.plotter.state.curves.length > 0;
   const heard = () => studio.happenings.items.length > 0;
+  const hasRobot = () => (robotOf(studio)?.kind ?? 'none') !== 'none';
   return [
     command('variables.find', open, () => find(studio, 'variables'), ['Alt+Shift+V']),
     command('watch.add', open, () => find(studio, 'watch'), ['Alt+Shift+W']),
@@ -31,12 +30,15 @@ export function robotCommands(studio: Studio): Command[] {
     command('events.find', open, () => find(studio, 'events'), ['Alt+Shift+E']),
     command('events.pause', open, () => pauseEvents(studio)),
     command('events.clear', heard, () => studio.happenings.clear()),
-    command('events.csv', heard, () =>
-      download(csvBlob(happeningsCsv(studio.happenings.items)), 'events.csv'),
+    // Whoever has not looked at them yet does not know whether there are any.
+    command(
+      'events.csv',
+      () => heard() || hasRobot(),
+      async () => (await import('./save_events')).saveEvents(studio),
     ),
     command(
       'events.send',
-      () => drives(studio) && (robotOf(studio)?.kind ?? 'none') !== 'none',
+      () => drives(studio) && hasRobot(),
       () => openSend(studio),
       ['Alt+Shift+S'],
     ),
@@ -48,8 +50,10 @@ export function robotCommands(studio: Studio): Command[] {
     ),
     command('plots.csv', plotted, () => copyCsv(studio)),
     command('plots.csvFile', plotted, () => download(csvBlob(studio.plotter.csv()), 'plot.csv')),
-    command('plots.png', plotted, () => copyPng(studio)),
-    command('plots.pngFile', plotted, () => savePng(studio)),
+    command('plots.png', plotted, async () => (await import('./plot_pictures')).copyPng(studio)),
+    command('plots.pngFile', plotted, async () =>
+      (await import('./plot_pictures')).savePng(studio),
+    ),
   ];
 }
 
@@ -108,26 +112,6 @@ function openSend(studio: Studio): void {
 
 async function copyCsv(studio: Studio): Promise<void> {
   await copyText(studio, studio.plotter.csv(), text.clipboard.copied('CSV'));
-}
-
-async function copyPng(studio: Studio): Promise<void> {
-  const picture = await plotPicture(studio);
-  if (!picture) return;
-  if (typeof ClipboardItem === 'undefined') throw new Error(text.clipboard.noClipboard);
-  await clipboard().write([new ClipboardItem({ [picture.type]: picture })]);
-  toast(studio.window, 'ok', text.clipboard.copied('PNG'));
-}
-
-/** A page that came over an open line has none. */
-function clipboard(): Clipboard {
-  const { clipboard: own } = navigator as { clipboard?: Clipboard };
-  if (!own) throw new Error(text.clipboard.noClipboard);
-  return own;
-}
-
-async function savePng(studio: Studio): Promise<void> {
-  const picture = await plotPicture(studio);
-  if (picture) download(picture, 'plot.png');
 }
 
 function csvBlob(csv: string): Blob {

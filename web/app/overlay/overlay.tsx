@@ -1,4 +1,4 @@
-import { Suspense, useEffect } from 'react';
+import { Suspense, useLayoutEffect } from 'react';
 import { late } from '../parts/late';
 import { useCloseOverlay } from '../parts/overlay_frame';
 import { useWindow } from '../hooks';
@@ -27,13 +27,37 @@ export function Overlay() {
   );
 }
 
-/** Escape ends it before it is there, too: the first time it has to be loaded. */
+/** Until it is loaded, Escape ends it, and what is typed is kept for its field. */
 function Coming() {
   const close = useCloseOverlay();
-  useEffect(() => {
-    const pressed = (event: KeyboardEvent) => event.key === 'Escape' && close();
-    document.addEventListener('keydown', pressed);
-    return () => document.removeEventListener('keydown', pressed);
+  useLayoutEffect(() => {
+    const kept: string[] = [];
+    const pressed = (event: KeyboardEvent) => {
+      const { key, ctrlKey, altKey, metaKey } = event;
+      if (key === 'Escape') close();
+      else if (!ctrlKey && !altKey && !metaKey && (key.length === 1 || key === 'Enter')) {
+        event.preventDefault();
+        event.stopPropagation();
+        kept.push(key);
+      }
+    };
+    addEventListener('keydown', pressed, true);
+    return () => {
+      removeEventListener('keydown', pressed, true);
+      void typeAgain(kept);
+    };
   }, [close]);
   return null;
+}
+
+/** The field has the keyboard once this drawing is done, and shows each key before the next one. */
+async function typeAgain(kept: readonly string[]): Promise<void> {
+  for (const key of kept) {
+    await Promise.resolve();
+    const field = document.activeElement;
+    if (!field?.closest('.overlay')) return;
+    if (key === 'Enter') (field as HTMLInputElement).form?.requestSubmit();
+    // Old, but the only way that types as keys do, which undo takes back.
+    else document.execCommand('insertText', false, key);
+  }
 }

@@ -70,6 +70,13 @@ Status Walk::actor(const std::string& name) {
             return Status::done();
         }
     }
+    if (known_.empty()) {
+        return Error{
+            Code::NotFound,
+            fmt::format("actor {}: no actor had begun by then; let the plan run on, or ask "
+                        "about a later instant",
+                        name)};
+    }
     return nothing_of("actor", name);
 }
 

@@ -24,6 +24,19 @@ Result<FolderLock> FolderLock::take(const std::string& path) {
     return lock;
 }
 
+Result<FolderLock> FolderLock::take_file(const std::string& path) {
+    std::error_code failed;  // then the path as it was given
+    const std::filesystem::path found = std::filesystem::weakly_canonical(path, failed);
+    const std::string beside = (failed ? path : found.string()) + ".lock";
+    const int file = ::open(beside.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return Error{Code::Unavailable, beside + ": " + std::strerror(errno)};
+    const bool holds = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    const bool is_taken = !holds && errno == EWOULDBLOCK;
+    FolderLock lock(file, holds);
+    if (is_taken) return Error{Code::Refused, path + ": another program uses this file"};
+    return lock;
+}
+
 FolderLock::FolderLock(FolderLock&& other) noexcept
     : folder_(std::exchange(other.folder_, -1)), holds_(other.holds_) {}
 

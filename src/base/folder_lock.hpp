@@ -1,4 +1,4 @@
-// A folder that one process uses at a time.
+// A folder, or a file, that one process uses at a time.
 //
 //     const FolderLock lock = TRY(FolderLock::take("boards"));
 //
@@ -17,6 +17,10 @@ public:
     // Makes the folder if it is not there. Refused: another one holds it. Unavailable: it cannot be
     // made or opened, and why.
     static Result<FolderLock> take(const std::string& path);
+    // For a file that is replaced when it is written, so that a lock on itself would be lost: the
+    // lock is on PATH.lock beside it, which stays there. Links to a file that is there share it. Refused
+    // and Unavailable as above.
+    static Result<FolderLock> take_file(const std::string& path);
     ~FolderLock();
     FolderLock(FolderLock&& other) noexcept;
     FolderLock& operator=(FolderLock&&) = delete;

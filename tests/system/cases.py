@@ -369,6 +369,15 @@ class System(unittest.TestCase):
             bus.send(0, 0, 99)
             self.assertEqual(struct.unpack("<h", bus.wait(0, source=4))[0], 100)
 
+    def test_two_nodes_do_not_keep_their_programs_in_one_file(self):
+        flash = self.folder / "keeper.flash"
+        first = self.start(vagus("node", "--flash", flash, "--listen", "tcp:127.0.0.1:0"))
+        listening(first)
+        told = run_vagus("node", "--flash", flash, "--listen", "tcp:127.0.0.1:0", status=1)
+        self.assertIn(f"--flash {flash}: another program uses this file; name another file", told)
+        first.kill()
+        listening(self.start(vagus("node", "--flash", flash, "--listen", "tcp:127.0.0.1:0")))
+
     def test_what_a_node_saves_replaces_no_script(self):
         script = self.folder / "keeper.aesl"
         script.write_text(SAVED, encoding="utf-8")

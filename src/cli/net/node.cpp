@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "aesl/node_file.hpp"
 #include "base/file.hpp"
+#include "base/folder_lock.hpp"
 #include "cli/kept_file.hpp"
 #include "cli/options.hpp"
 #include "cli/output.hpp"
@@ -128,6 +131,16 @@ Status check_flash(const std::string& flash) {
 int run_node(const NodeOptions& options) {
     if (const Status good = check_flash(options.flash); !good.ok()) {
         return complain(good.error(), kExitUsage);
+    }
+    std::optional<FolderLock> lock;  // as long as it runs: two would replace each other's programs
+    if (!options.flash.empty()) {
+        auto taken = FolderLock::take_file(options.flash);
+        if (!taken.ok() && taken.error().code == Code::Refused) {
+            return complain("--flash " + taken.error().what +
+                                "; name another file, or end the node that keeps its program there",
+                            kExitFailed);
+        }
+        if (taken.ok()) lock.emplace(std::move(taken.value()));
     }
     NodeProgram program;
     const Status made = program.make_node(options);

@@ -170,7 +170,10 @@ test('what cannot be answered says why', wall, async ({ page, press, layout }) =
   await layout('Debug');
   await page.getByRole('group', { name: /^followWall, actor/ }).focus();
   await press('Space', 'w');
-  await reads(page.getByRole('alert'), /actor followWall: no actor had begun by then; let the plan run/);
+  await reads(
+    page.getByRole('alert'),
+    /actor followWall: no actor had begun by then; let the plan run/,
+  );
   // Of a thing in the world nothing can be asked, and the key says of what.
   await world(page).focus();
   await press('n', 'w');

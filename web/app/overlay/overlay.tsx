@@ -27,22 +27,32 @@ export function Overlay() {
   );
 }
 
-/** Until it is loaded, Escape ends it, and what is typed is kept for its field. */
+/** Until it is loaded, Escape ends it, and what is typed is kept for its field, unless a click chose another. */
 function Coming() {
   const close = useCloseOverlay();
   useLayoutEffect(() => {
     const kept: string[] = [];
+    let elsewhere = false;
+    const clicked = () => void (elsewhere = true);
     const pressed = (event: KeyboardEvent) => {
       const { key, ctrlKey, altKey, metaKey } = event;
       if (key === 'Escape') close();
-      else if (!ctrlKey && !altKey && !metaKey && (key.length === 1 || key === 'Enter')) {
+      else if (
+        !elsewhere &&
+        !ctrlKey &&
+        !altKey &&
+        !metaKey &&
+        (key.length === 1 || key === 'Enter')
+      ) {
         event.preventDefault();
         event.stopPropagation();
         kept.push(key);
       }
     };
     addEventListener('keydown', pressed, true);
+    addEventListener('pointerdown', clicked, true);
     return () => {
+      removeEventListener('pointerdown', clicked, true);
       removeEventListener('keydown', pressed, true);
       void typeAgain(kept);
     };

@@ -18,8 +18,8 @@ public:
     // made or opened, and why.
     static Result<FolderLock> take(const std::string& path);
     // For a file that is replaced when it is written, so that a lock on itself would be lost: the
-    // lock is on PATH.lock beside it, which stays there. Links to a file that is there share it. Refused
-    // and Unavailable as above.
+    // lock is on PATH.lock beside it, which stays there. Links to a file that is there share it.
+    // Refused and Unavailable as above.
     static Result<FolderLock> take_file(const std::string& path);
     ~FolderLock();
     FolderLock(FolderLock&& other) noexcept;

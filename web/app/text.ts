@@ -222,7 +222,7 @@ export const text = {
     notNow: 'Not possible now.',
     elsewhere: 'Click into the drawing first.',
     of: {
-      'project.make': 'What is open is a project.',
+      'project.make': 'It is a project.',
       'run.pause': 'Nothing is running.',
       'tests.run': 'Open a test first (NAME.test.json).',
       'tests.stop': 'No tests are running.',
@@ -453,7 +453,7 @@ export const text = {
       robot: 'No robot in the world',
       help: {
         project:
-          'There is no world to run this in. Makes its folder a project with a world; for a robot of yours, choose the target instead.',
+          'Makes the folder a project, with a world to run this in. For a real robot choose a target.',
         target: 'The project names no world, and no robot is connected. Choose a target.',
         node: 'No node answers on this target. Switch the robot on, or choose another target.',
         robot: 'Nothing in this world can run a program. Open the world, then Edit, Add.',

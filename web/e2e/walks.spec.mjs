@@ -60,7 +60,9 @@ test(
     await press('Alt+n');
     await type('ahead');
     await asked;
-    await type('-of it');
+    await type('-of me');
+    await press('Backspace', 'Backspace');
+    await type('it');
     come();
     const name = page.getByRole('textbox', { name: 'Name' });
     await until('all of it is there', async () => (await name.inputValue()) === 'ahead-of it');

@@ -36,18 +36,15 @@ function Coming() {
     const clicked = () => void (elsewhere = true);
     const pressed = (event: KeyboardEvent) => {
       const { key, ctrlKey, altKey, metaKey } = event;
-      if (key === 'Escape') close();
-      else if (
-        !elsewhere &&
-        !ctrlKey &&
-        !altKey &&
-        !metaKey &&
-        (key.length === 1 || key === 'Enter')
-      ) {
-        event.preventDefault();
-        event.stopPropagation();
-        kept.push(key);
-      }
+      const chord = (ctrlKey || altKey || metaKey) && !event.getModifierState('AltGraph');
+      if (key === 'Escape') return close();
+      // Stop has to get through.
+      if (elsewhere || chord || /^F\d/.test(key)) return;
+      // Also those that are not kept: Delete is not for what lies behind.
+      event.preventDefault();
+      event.stopPropagation();
+      if (key === 'Backspace') kept.pop();
+      else if (key.length === 1 || key === 'Enter') kept.push(key);
     };
     addEventListener('keydown', pressed, true);
     addEventListener('pointerdown', clicked, true);

@@ -17,11 +17,7 @@ Result<FolderLock> FolderLock::take(const std::string& path) {
     if (failed) return Error{Code::Unavailable, path + ": " + failed.message()};
     const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return Error{Code::Unavailable, path + ": " + std::strerror(errno)};
-    const bool holds = ::flock(folder, LOCK_EX | LOCK_NB) == 0;
-    const bool is_taken = !holds && errno == EWOULDBLOCK;
-    FolderLock lock(folder, holds);
-    if (is_taken) return Error{Code::Refused, path + ": another program uses this folder"};
-    return lock;
+    return lock(folder, path + ": another program uses this folder");
 }
 
 Result<FolderLock> FolderLock::take_file(const std::string& path) {
@@ -30,11 +26,15 @@ Result<FolderLock> FolderLock::take_file(const std::string& path) {
     const std::string beside = (failed ? path : found.string()) + ".lock";
     const int file = ::open(beside.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0) return Error{Code::Unavailable, beside + ": " + std::strerror(errno)};
-    const bool holds = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    return lock(file, path + ": another program uses this file");
+}
+
+Result<FolderLock> FolderLock::lock(int open, const std::string& taken) {
+    const bool holds = ::flock(open, LOCK_EX | LOCK_NB) == 0;
     const bool is_taken = !holds && errno == EWOULDBLOCK;
-    FolderLock lock(file, holds);
-    if (is_taken) return Error{Code::Refused, path + ": another program uses this file"};
-    return lock;
+    FolderLock made(open, holds);
+    if (is_taken) return Error{Code::Refused, taken};
+    return made;
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept

@@ -29,6 +29,8 @@ public:
     bool holds() const { return holds_; }
 
 private:
+    // Of what is open; it is closed with the lock. `taken`: what is said where another holds it.
+    static Result<FolderLock> lock(int open, const std::string& taken);
     FolderLock(int folder, bool holds) : folder_(folder), holds_(holds) {}
 
     int folder_ = -1;  // -1: it was moved

@@ -117,7 +117,7 @@ std::string sha256_of(std::string_view bytes) {
 Result<CollectedBundle> collect_bundle(const std::string& project) {
     const OpenedProject opened = TRY(open_path(project));
     if (opened.project_file.empty()) {
-        if (opened.file == opened.folder) return no_project_file_in(opened.folder);
+        if (!opened.is_alone()) return no_project_file_in(opened.folder);
         return Error{Code::BadInput, project +
                                          ": expected a folder with a vagus.json; a file alone "
                                          "does not say what a robot does with it"};

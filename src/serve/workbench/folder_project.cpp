@@ -32,7 +32,7 @@ struct Parts {
 };
 
 Parts parts_of(const OpenedProject& opened, const std::string& shown, const FolderFiles& files) {
-    const bool alone = opened.file != opened.folder;
+    const bool alone = opened.is_alone();
     const std::string open = fs::path(alone ? opened.file : opened.real(shown)).filename().string();
     const std::string kind = kind_of_file(open);
     const auto part = [&](const char* of, const std::vector<std::string>& names) {

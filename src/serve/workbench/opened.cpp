@@ -19,6 +19,13 @@ constexpr const char* kWhatOpens =
     "open a folder with a vagus.json, or with files NAME.aesl, NAME.plan.json, NAME.world.json, "
     "such a file alone, or a recording NAME.mcap";
 
+// How what its folder's files name is called from the root; empty stays empty.
+std::string from_root(const OpenedProject& opened, const std::string& named) {
+    if (named.empty()) return named;
+    const fs::path path = (fs::path(opened.folder) / named).lexically_normal();
+    return path.lexically_relative(opened.root).generic_string();
+}
+
 Result<OpenedProject> open_folder(const fs::path& folder) {
     const fs::path file = folder / kProjectFileName;
     OpenedProject opened;
@@ -26,13 +33,7 @@ Result<OpenedProject> open_folder(const fs::path& folder) {
     opened.root = project_border(file.string());
     // One that cannot be read opens all the same, so that it can be put right.
     const auto read = session::open_project(file.string());
-    const auto inside = [&](const std::string& named) {
-        return named.empty() ? named
-                             : (folder / named)
-                                   .lexically_normal()
-                                   .lexically_relative(opened.root)
-                                   .generic_string();
-    };
+    const auto inside = [&](const std::string& named) { return from_root(opened, named); };
     opened.project_file = inside(kProjectFileName);
     opened.name = folder.filename().string();
     if (!read.ok()) {
@@ -67,10 +68,7 @@ Result<OpenedProject> open_bare_folder(const fs::path& folder, const std::string
     opened.folder = opened.file = folder.string();
     const std::string border = project_border((folder / kProjectFileName).string());
     opened.root = border.empty() ? folder : fs::path(border);
-    const auto inside = [&](const std::string& name) {
-        return name.empty() ? name
-                            : (folder / name).lexically_relative(opened.root).generic_string();
-    };
+    const auto inside = [&](const std::string& name) { return from_root(opened, name); };
     opened.name = folder.filename().string();
     opened.plan = inside(only_one(files.plans));
     opened.world = inside(only_one(files.worlds));
@@ -96,11 +94,8 @@ Result<OpenedProject> open_file(const fs::path& file) {
         opened.plan = path;
         // What it runs in lies beside it.
         const std::string world = one_beside(opened.name, files_of_folder(opened.folder).worlds);
-        if (!world.empty()) {
-            const fs::path beside = fs::path(opened.folder) / world;
-            opened.world = beside.lexically_relative(opened.root).generic_string();
-            opened.only.push_back(opened.world);
-        }
+        opened.world = from_root(opened, world);
+        if (!world.empty()) opened.only.push_back(opened.world);
     } else if (kind == "world") {
         opened.world = path;
     } else {

@@ -35,6 +35,8 @@ struct OpenedProject {
     std::string copy_of;    // an example
     std::string recording;  // what the project was made of: it is looked at first
 
+    // A script, plan or world without the folder around it.
+    bool is_alone() const { return file != folder; }
     // A path of the project as one of this computer.
     std::string real(const std::string& path) const { return (root / path).string(); }
     // The document of a file of this computer; the path itself if it is elsewhere.
